@@ -1,0 +1,2 @@
+//! Elementary functions, branch-free.
+pub mod kernel;
