@@ -1,2 +1,43 @@
 //! Elementary functions, branch-free.
+//!
+//! Each function is straight-line arithmetic with selects in place of branches: no calls but the square root,
+//! no table lookups. A plain loop over a slice therefore becomes vector code, and the result of a lane does
+//! not depend on its neighbours. One generic body serves f32 and f64; only the coefficients differ
+//! ([`kernel`]), and beside each table stands the error of the approximant.
+//!
+//! Errors are stated in ulp of the exact result (f64) or of the result of the same function in f64 (f32),
+//! as measured by the crate's tests, which fail when a statement becomes wrong or twice too pessimistic.
+//! NaN gives NaN everywhere.
+//!
+//! # Cost
+//! A function costs the sum of everything it may need, whatever its argument:
+//!
+//! | function | divisions | square roots | contains |
+//! |---|---|---|---|
+//! | [`exp`], [`exp_m1`], [`exp_neg_square`], [`sin_cos_turns`] | 0 | 0 | |
+//! | [`exp_wide`] | 0 | 0 | range reduction in f64 |
+//! | [`ln`], [`ln_1p`], [`ln_wide`] | 1 | 0 | |
+//! | [`pow_wide`] | 1 | 0 | a logarithm and an exponential |
+//! | [`erf`], [`ierfcx`] | 1 | 0 | |
+//! | [`erfc`], [`erfcx`] | 1 | 0 | an exponential |
+//! | [`erf_inv`], [`erfc_inv`] | 2 | 1 | a logarithm |
+
+#![expect(
+    clippy::inline_always,
+    reason = "a loop over a slice vectorises only if everything within it is inlined"
+)]
+
+mod erf;
+mod erf_inv;
+mod erfcx;
+mod exp;
 pub mod kernel;
+mod log;
+mod trig;
+
+pub use erf::{erf, erfc};
+pub use erf_inv::{erf_inv, erfc_inv};
+pub use erfcx::{erfcx, ierfcx};
+pub use exp::{exp, exp_m1, exp_neg_square, exp_wide};
+pub use log::{ln, ln_1p, ln_wide, pow_wide};
+pub use trig::sin_cos_turns;

@@ -110,7 +110,7 @@ pub trait Real:
 
 macro_rules! real {
     ($t:ident, $vec2:ident, $vec3:ident, $mat2:ident, $sqrt_libm:ident) => {
-        #[expect(
+        #[allow(
             clippy::cast_possible_truncation,
             clippy::cast_lossless,
             reason = "one body for both scalars: rounding to f32 is what is meant, and f64 → f64 is free"

@@ -1,5 +1,131 @@
-//! What the elementary functions need of a scalar.
-/// Sealed.
-pub trait Kernel {}
-impl Kernel for f32 {}
-impl Kernel for f64 {}
+//! What the elementary functions need of a scalar: its bits, and its coefficient tables.
+//!
+//! The tables are minimax fits computed by `tests/reference/elementary_coefficients.py`, which prints them
+//! with the error attained after rounding to the scalar. That error, of the approximant alone, stands beside
+//! each as a power of two. They are written as f64 and narrowed when compiled.
+
+use crate::real::Real;
+
+mod double;
+mod single;
+
+/// Sealed: implemented for f32 and f64 only.
+#[doc(hidden)]
+pub trait Kernel: Copy {
+    /// Whether `Real::Wide` has more digits than the scalar itself.
+    const WIDENS: bool;
+    /// 1.5·2^(digits−1): adding and subtracting it rounds to an integer, to even at ties.
+    const ROUND: f64;
+    /// 2^(digits−1): the same for numbers that are not negative, up to itself.
+    const ROUND_POSITIVE: f64;
+    /// `ROUND` + the bias of the exponent.
+    const EXPONENT: f64;
+    /// A power of two that brings the smallest positive number above `MIN_POSITIVE`, and its exponent.
+    const DENORMAL_SCALE: (f64, f64);
+    /// `exp` overflows above the first and is 0 below the second.
+    const EXP_RANGE: (f64, f64);
+    /// ln 2 as a sum: the first has enough trailing zeros for exact products with every exponent.
+    const LN_2: (f64, f64);
+    /// 2π as a sum.
+    const TAU: (f64, f64);
+    /// Above this `erfcx` and `ierfcx` equal their asymptote to rounding.
+    const FAR: f64;
+    /// Above this `erf` is 1.
+    const ERF_ONE: f64;
+    /// The table of each function; see the bodies for the form.
+    const EXP: &'static [f64];
+    /// See [`super::ln`].
+    const LN: &'static [f64];
+    /// See [`super::ln_wide`].
+    const LN_WIDE: &'static [f64];
+    /// See [`super::pow_wide`].
+    const LN_POW: &'static [f64];
+    /// See [`super::sin_cos_turns`].
+    const SIN: &'static [f64];
+    /// See [`super::sin_cos_turns`].
+    const COS: &'static [f64];
+    /// See [`super::erf`].
+    const ERF: [&'static [f64]; 2];
+    /// See [`super::erfcx`].
+    const ERFCX: [&'static [f64]; 2];
+    /// See [`super::ierfcx`].
+    const IERFCX: [&'static [f64]; 2];
+    /// See [`super::erf_inv`]: up to which value of the variable, its shift, numerator and denominator.
+    const ERF_INV: [ErfInv; 3];
+
+    /// 2ⁿ for an integer n within the exponents of normal numbers.
+    #[must_use]
+    fn exp2_of_integer(self) -> Self;
+    /// (m, k) with m·2ᵏ the number, √½ ≤ m < √2; normal positive numbers only.
+    #[must_use]
+    fn split_exponent(self) -> (Self, Self);
+    /// The number with the lower half of its digits zeroed, so that products of two such are exact.
+    #[must_use]
+    fn upper_half(self) -> Self;
+}
+
+/// One interval of the inverse error function.
+#[doc(hidden)]
+#[derive(Clone, Copy, Debug)]
+pub struct ErfInv {
+    /// The end of the interval in √w.
+    pub end: f64,
+    /// What is subtracted from √w.
+    pub shift: f64,
+    /// Numerator, constant term first.
+    pub num: &'static [f64],
+    /// Denominator, constant term first.
+    pub den: &'static [f64],
+}
+
+/// c₀ + c₁x + c₂x² + …, as two polynomials in x² so that both are evaluated at once.
+#[inline(always)]
+pub(super) fn polynomial<T: Real>(x: T, c: &'static [f64]) -> T {
+    polynomial_of(x, c.len(), |i| T::lit(c[i]))
+}
+
+/// The same of coefficients that depend on the argument.
+#[inline(always)]
+pub(super) fn polynomial_of<T: Real>(x: T, len: usize, c: impl Fn(usize) -> T) -> T {
+    let y = x * x;
+    let (mut even, mut odd) = (c(len - 1), c(len - 2));
+    if len % 2 == 0 {
+        (even, odd) = (odd, even);
+    }
+    for i in (0..len - 2).rev() {
+        if i % 2 == 0 {
+            even = even * y + c(i);
+        } else {
+            odd = odd * y + c(i);
+        }
+    }
+    even + x * odd
+}
+
+/// The operations on bits, the same for both but for the widths.
+macro_rules! bits {
+    ($t:ident, $digits:literal, $half_mask:literal) => {
+        #[inline(always)]
+        fn exp2_of_integer(self) -> Self {
+            // the sum's low bits are n + bias; the shift drops all others
+            $t::from_bits((self + Self::lit(Self::EXPONENT)).to_bits() << $digits)
+        }
+        #[inline(always)]
+        fn split_exponent(self) -> (Self, Self) {
+            let bits = self.to_bits();
+            let one = (1.0 as $t).to_bits();
+            // the biased exponent of x/√½
+            let shifted = bits.wrapping_add(one - core::$t::consts::FRAC_1_SQRT_2.to_bits());
+            let exponent = shifted >> $digits;
+            let k = $t::from_bits(exponent | Self::lit(Self::ROUND_POSITIVE).to_bits())
+                - (Self::lit(Self::ROUND_POSITIVE) + Self::lit(Self::EXPONENT - Self::ROUND));
+            let m = $t::from_bits(bits.wrapping_sub(exponent << $digits).wrapping_add(one));
+            (m, k)
+        }
+        #[inline(always)]
+        fn upper_half(self) -> Self {
+            $t::from_bits(self.to_bits() & $half_mask)
+        }
+    };
+}
+use bits;
