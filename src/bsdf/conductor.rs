@@ -1,0 +1,175 @@
+//! Reflection by a rough conductor.
+
+use crate::Real;
+use crate::bsdf::Sample;
+use crate::bsdf::sampling::{NormalSampling, VisibleNormals};
+use crate::frame::reflected;
+use crate::fresnel::{Fresnel, Spectrum};
+use crate::ndf::{Ndf, Vec2, Vec3};
+use crate::vector::dot;
+
+/// Single reflection off a rough surface of any distribution and Fresnel term, with height-correlated masking.
+///
+/// f = F D G2/(4 zi zo), evaluated as F D/(4 (zo σ(wi) + zi σ(wo) − zi zo)), which has no cosine in a
+/// denominator, with D of the half vector wi + wo, which is not normalised (see [`Ndf::d_along`]).
+///
+/// # Special cases
+/// A direction at or below the horizon → f = pdf = 0 and no sample. Where |wi + wo|² < 2⁻⁹⁶ (f32) or 2⁻⁷⁶⁸ (f64),
+/// which unit vectors above the horizon reach only within 1e-14 (f32) of it and opposite to each other → 0. f itself
+/// grows without bound as both directions approach the horizon, and overflows to ∞ once 4 zi zo/G2 is smaller
+/// than D over the largest number of the scalar; f wi.z does not.
+///
+/// # Example
+/// ```
+/// use microsurface::{Ggx, bsdf::RoughConductor, fresnel::Schlick, glam::{Vec2, Vec3}};
+/// let gold = RoughConductor::new(Ggx::isotropic(0.2_f32)?, Schlick::new(Vec3::new(1.0, 0.78, 0.34)));
+/// let wo = Vec3::new(0.6, 0.0, 0.8);
+/// let sample = gold.sample(wo, Vec2::new(0.4, 0.6)).expect("above the horizon");
+/// let f = gold.eval(sample.wi, wo);
+/// assert!((f * sample.wi.z / sample.pdf - sample.weight).length() < 1e-5);
+/// assert!((gold.pdf(sample.wi, wo) / sample.pdf - 1.0).abs() < 1e-4);
+/// # Ok::<(), microsurface::Error>(())
+/// ```
+///
+/// # References
+/// Torrance and Sparrow 1967; Walter, Marschner, Li and Torrance 2007, Eq. 20; Heitz 2014.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct RoughConductor<N, F, S = VisibleNormals> {
+    surface: N,
+    fresnel: F,
+    sampling: S,
+}
+
+impl<N, F> RoughConductor<N, F> {
+    /// The surface with a Fresnel term, sampled by its visible normals.
+    #[inline]
+    #[must_use]
+    pub const fn new(surface: N, fresnel: F) -> Self {
+        Self { surface, fresnel, sampling: VisibleNormals }
+    }
+}
+
+impl<N, F, S> RoughConductor<N, F, S> {
+    /// The same BRDF, sampled otherwise.
+    #[inline]
+    #[must_use]
+    pub fn sampled_by<R>(self, sampling: R) -> RoughConductor<N, F, R> {
+        RoughConductor { surface: self.surface, fresnel: self.fresnel, sampling }
+    }
+
+    /// The microsurface.
+    #[inline]
+    #[must_use]
+    pub const fn surface(&self) -> &N {
+        &self.surface
+    }
+
+    /// The Fresnel term.
+    #[inline]
+    #[must_use]
+    pub const fn fresnel(&self) -> &F {
+        &self.fresnel
+    }
+}
+
+/// The half vector wi + wo, not normalised, and whether anything is reflected.
+struct Half<T> {
+    h: [T; 3],
+    length: T,
+    reflects: bool,
+}
+
+impl<T: Real> Half<T> {
+    #[inline(always)]
+    fn new([ix, iy, iz]: [T; 3], [ox, oy, oz]: [T; 3]) -> Self {
+        let h = [ix + ox, iy + oy, iz + oz];
+        let length2 = dot(h, h);
+        // Squares below the smallest normal number to the power ¾ have lost the digits of their components.
+        let shortest2 =
+            T::lit(if T::EPSILON.to_f64() > 1e-10 { 1.2621774483536189e-29 } else { 6.441148769597133e-232 });
+        let dark = iz <= T::ZERO || oz <= T::ZERO || length2 < shortest2;
+        Self { h, length: length2.sqrt(), reflects: !dark }
+    }
+
+    /// The value where light is reflected, 0 elsewhere.
+    #[inline(always)]
+    fn select(&self, value: T) -> T {
+        if self.reflects { value } else { T::ZERO }
+    }
+}
+
+impl<N, F, S> RoughConductor<N, F, S>
+where
+    N: Ndf,
+    F: Fresnel,
+    F::Output: Spectrum<Scalar = N::Scalar>,
+{
+    /// f(wi, wo), 1/sr, without the cosine; symmetric in wi and wo.
+    #[inline]
+    #[must_use]
+    pub fn eval(&self, wi: Vec3<N>, wo: Vec3<N>) -> F::Output {
+        let half = Half::<N::Scalar>::new(wi.into(), wo.into());
+        let d = self.surface.d_along(half.h.into());
+        let f = N::Scalar::lit(0.25) * d / self.masked_cosines(wi, wo);
+        self.fresnel.reflectance(N::Scalar::HALF * half.length).scaled(half.select(f))
+    }
+
+    /// zi zo/G2 = zo σ(wi) + zi σ(wo) − zi zo.
+    #[inline(always)]
+    fn masked_cosines(&self, wi: Vec3<N>, wo: Vec3<N>) -> N::Scalar {
+        let [_, _, zi]: [N::Scalar; 3] = wi.into();
+        let [_, _, zo]: [N::Scalar; 3] = wo.into();
+        zo * self.surface.sigma_above(wi) + zi * self.surface.sigma_above(wo) - zi * zo
+    }
+}
+
+impl<N, F, S> RoughConductor<N, F, S>
+where
+    N: Ndf,
+    F: Fresnel,
+    F::Output: Spectrum<Scalar = N::Scalar>,
+    S: NormalSampling<N>,
+{
+    /// The density with which [`sample`](Self::sample) draws `wi`, 1/sr.
+    ///
+    /// Its integral over the upper hemisphere is below 1 by the share of normals that reflect below the horizon.
+    #[inline]
+    #[must_use]
+    pub fn pdf(&self, wi: Vec3<N>, wo: Vec3<N>) -> N::Scalar {
+        let half = Half::<N::Scalar>::new(wi.into(), wo.into());
+        let (wo_wm, wm_z) = (N::Scalar::HALF * half.length, half.h[2] / half.length);
+        let density = self.sampling.density_over_d(self.surface.sigma_above(wo), wo_wm, wm_z);
+        half.select(self.surface.d_along(half.h.into()) * density)
+    }
+
+    /// A direction to the light for the viewer `wo`, from two random numbers.
+    ///
+    /// The weight F zi σ(wo)/(zo σ(wi) + zi σ(wo) − zi zo) of visible normals contains neither D nor a division by
+    /// a cosine and is at most F.
+    ///
+    /// # Returns
+    /// `None` where nothing is reflected: `wo` at or below the horizon, or a normal that reflects below it, whose
+    /// energy further bounces would carry.
+    #[inline]
+    #[must_use]
+    pub fn sample(&self, wo: Vec3<N>, u: Vec2<N>) -> Option<Sample<N::Scalar, F::Output>> {
+        let o: [N::Scalar; 3] = wo.into();
+        let wm = self.sampling.sample(&self.surface, wo, u);
+        let m: [N::Scalar; 3] = wm.into();
+        let wo_wm = dot(o, m);
+        let wi = reflected::<N::Scalar>(wo, wm);
+        let i: [N::Scalar; 3] = wi.into();
+        let up = o[2] > N::Scalar::ZERO && i[2] > N::Scalar::ZERO && wo_wm > N::Scalar::ZERO;
+        if !up {
+            return None;
+        }
+        let density = self.sampling.density_over_d(self.surface.sigma_above(wo), wo_wm, m[2]);
+        let weight = N::Scalar::lit(0.25) * i[2] / (density * self.masked_cosines(wi, wo));
+        Some(Sample {
+            wi,
+            weight: self.fresnel.reflectance(wo_wm).scaled(weight),
+            pdf: self.surface.d(wm) * density,
+        })
+    }
+}

@@ -1,0 +1,52 @@
+//! Which micronormals a BSDF samples.
+
+use crate::Real;
+use crate::ndf::{Ndf, SampleNdf, SampleVndf, Vec2, Vec3};
+
+/// A way to draw the micronormal a ray is reflected by.
+pub trait NormalSampling<N: Ndf> {
+    /// A unit normal for the direction `wo`, from u ∈ [0, 1)².
+    fn sample(&self, surface: &N, wo: Vec3<N>, u: Vec2<N>) -> Vec3<N>;
+
+    /// The density of reflected directions over D(wm): p(wi)/D(wm) = p(wm)/(4 (wo·wm) D(wm)).
+    ///
+    /// # Domain
+    /// The cosines `wo_wm` = wo·wm and `wm_z` = wm.z are positive; `sigma_o` = σ(wo).
+    fn density_over_d(&self, sigma_o: N::Scalar, wo_wm: N::Scalar, wm_z: N::Scalar) -> N::Scalar;
+}
+
+/// The normals visible from the viewer, of density D_w: the sample's weight never exceeds the reflectance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct VisibleNormals;
+
+/// All normals, of density D(wm) wm.z, visible or not: for distributions whose visible normals cannot be drawn.
+///
+/// Weights are unbounded towards grazing angles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct AllNormals;
+
+impl<N: SampleVndf> NormalSampling<N> for VisibleNormals {
+    #[inline(always)]
+    fn sample(&self, surface: &N, wo: Vec3<N>, u: Vec2<N>) -> Vec3<N> {
+        surface.sample_vndf(wo, u)
+    }
+
+    #[inline(always)]
+    fn density_over_d(&self, sigma_o: N::Scalar, _: N::Scalar, _: N::Scalar) -> N::Scalar {
+        N::Scalar::lit(0.25) / sigma_o
+    }
+}
+
+impl<N: SampleNdf> NormalSampling<N> for AllNormals {
+    #[inline(always)]
+    fn sample(&self, surface: &N, _: Vec3<N>, u: Vec2<N>) -> Vec3<N> {
+        surface.sample_d(u)
+    }
+
+    #[inline(always)]
+    fn density_over_d(&self, _: N::Scalar, wo_wm: N::Scalar, wm_z: N::Scalar) -> N::Scalar {
+        N::Scalar::lit(0.25) * wm_z / wo_wm
+    }
+}

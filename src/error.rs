@@ -1,0 +1,113 @@
+//! What constructors refuse, and why.
+
+use core::fmt;
+
+use crate::Real;
+use crate::roughness::alpha_range;
+
+/// Why a constructor refused its arguments; every variant names the offending value.
+///
+/// Values are kept as f64, which holds an f32 exactly. Evaluation has no errors: it never panics and says
+/// in its documentation what it returns at the ends of its domain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Error {
+    /// A slope width α is not a finite number within [`alpha_range`].
+    Alpha {
+        /// The α given.
+        value: f64,
+        /// The smallest α accepted for the scalar type.
+        smallest: f64,
+        /// The largest α accepted for the scalar type.
+        largest: f64,
+    },
+    /// GTR is defined for α ≤ 1 only.
+    AlphaAboveOne {
+        /// The α given.
+        value: f64,
+    },
+    /// A tail exponent γ is negative, not finite, or above what the constructor covers.
+    Gamma {
+        /// The γ given.
+        value: f64,
+        /// The largest γ this constructor accepts.
+        largest: f64,
+    },
+    /// A roughness matrix is not finite, not positive definite, or has a principal α outside [`alpha_range`].
+    RoughnessMatrix {
+        /// Its xx entry, α² units.
+        xx: f64,
+        /// Its xy entry.
+        xy: f64,
+        /// Its yy entry.
+        yy: f64,
+        /// Its determinant, computed without cancellation.
+        determinant: f64,
+    },
+    /// A linear map is not finite, singular, or leaves the representable range of α.
+    Map {
+        /// The determinant of the map.
+        determinant: f64,
+    },
+    /// A stretch is not inside (−1, 1).
+    Stretch {
+        /// The stretch given.
+        value: f64,
+    },
+    /// A refractive index η or n is not positive and finite.
+    RefractiveIndex {
+        /// The index given.
+        value: f64,
+    },
+    /// An extinction coefficient k is negative or not finite.
+    Extinction {
+        /// The coefficient given.
+        value: f64,
+    },
+    /// A roughness, sharpness or anisotropy parameter of an artist's map is outside its domain.
+    Parameter {
+        /// The name of the parameter.
+        name: &'static str,
+        /// The value given.
+        value: f64,
+    },
+}
+
+impl Error {
+    pub(crate) fn alpha<T: Real>(value: T) -> Self {
+        let (smallest, largest) = alpha_range::<T>();
+        Self::Alpha { value: value.to_f64(), smallest: smallest.to_f64(), largest: largest.to_f64() }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Alpha { value, smallest, largest } => {
+                write!(f, "alpha = {value} is not a finite number in [{smallest:e}, {largest:e}]")
+            }
+            Self::AlphaAboveOne { value } => write!(f, "alpha = {value}: GTR is defined for alpha <= 1"),
+            Self::Gamma { value, largest } => {
+                write!(f, "gamma = {value} is not a finite number in [0, {largest}]")
+            }
+            Self::RoughnessMatrix { xx, xy, yy, determinant } => write!(
+                f,
+                "roughness matrix [[{xx}, {xy}], [{xy}, {yy}]] with determinant {determinant} is not positive \
+                 definite with principal alphas in range"
+            ),
+            Self::Map { determinant } => {
+                write!(f, "the map with determinant {determinant} is singular, not finite or out of range")
+            }
+            Self::Stretch { value } => write!(f, "stretch = {value} is not inside (-1, 1)"),
+            Self::RefractiveIndex { value } => {
+                write!(f, "refractive index = {value} is not positive and finite")
+            }
+            Self::Extinction { value } => {
+                write!(f, "extinction coefficient = {value} is negative or not finite")
+            }
+            Self::Parameter { name, value } => write!(f, "{name} = {value} is outside its domain"),
+        }
+    }
+}
+
+impl core::error::Error for Error {}

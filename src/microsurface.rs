@@ -1,0 +1,178 @@
+//! A slope profile seen through a linear map of the tangent plane.
+
+use crate::Real;
+use crate::error::Error;
+use crate::map::{Linear, Map, moved};
+use crate::ndf::{Ndf, SampleNdf, SampleVndf, Vec2, Vec3};
+use crate::profile::{Profile, SampleProfile, SampleVisibleProfile};
+use crate::vector::{dot, normalized};
+
+/// A microsurface: the isotropic slope profile `P` seen through the linear map `M` of the tangent plane.
+///
+/// Anisotropy, roughness matrices and transforms of the microsurface are all maps, so whatever a profile can do
+/// it can do under each of them, and transforming a surface gives a surface again. The type of the map is its
+/// cost: [`Isotropic`](crate::Isotropic) (one number), [`AxisAligned`](crate::AxisAligned) (two),
+/// [`Linear`] (three).
+///
+/// # Example
+/// ```
+/// use microsurface::{Ggx, Ndf, SampleVndf, glam::{Vec2, Vec3}};
+/// let surface = Ggx::anisotropic(0.1_f32, 0.4)?;
+/// let wo = Vec3::new(0.6, 0.0, 0.8);
+/// let wm = surface.sample_vndf(wo, Vec2::new(0.3, 0.7));
+/// assert!(wo.dot(wm) > 0.0 && surface.vndf(wo, wm) > 0.0);
+/// # Ok::<(), microsurface::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Microsurface<P, M> {
+    profile: P,
+    map: M,
+}
+
+impl<P, M> Microsurface<P, M> {
+    /// The profile under the map.
+    #[inline]
+    #[must_use]
+    pub const fn new(profile: P, map: M) -> Self {
+        Self { profile, map }
+    }
+
+    /// The profile.
+    #[inline]
+    #[must_use]
+    pub const fn profile(&self) -> &P {
+        &self.profile
+    }
+
+    /// The map.
+    #[inline]
+    #[must_use]
+    pub const fn map(&self) -> &M {
+        &self.map
+    }
+}
+
+impl<P: Copy, M: Map> Microsurface<P, M> {
+    /// The microsurface moved by `matrix`: every point p of the tangent plane goes to `matrix`·p, heights stay.
+    ///
+    /// D_M(wm) = |det M|/|Mᵀwm|⁴ · D(Mᵀwm/|Mᵀwm|), with M the matrix extended by 1 for the height.
+    /// `s.transformed(a)?.transformed(b)?` is `s.transformed(b * a)?`.
+    ///
+    /// # Errors
+    /// [`Error::Map`], with the determinant of `matrix`, if it is singular or not finite or takes a principal α
+    /// out of [`alpha_range`](crate::roughness::alpha_range).
+    ///
+    /// # Example
+    /// Stretching a surface to twice its length along x makes it half as rough along x.
+    /// ```
+    /// use microsurface::{Ggx, Ndf, glam::{Mat2, Vec2, Vec3}};
+    /// let stretched = Ggx::isotropic(0.4_f32)?.transformed(Mat2::from_diagonal(Vec2::new(2.0, 1.0)))?;
+    /// let wm = Vec3::new(0.3, 0.4, 0.866).normalize();
+    /// assert!((stretched.d(wm) / Ggx::anisotropic(0.2, 0.4)?.d(wm) - 1.0).abs() < 1e-5);
+    /// # Ok::<(), microsurface::Error>(())
+    /// ```
+    ///
+    /// # References
+    /// Atanasov, Koylazov, Dimov and Wilkie 2022, Eqs. 9 and 22.
+    pub fn transformed(
+        &self,
+        matrix: <M::Scalar as Real>::Mat2,
+    ) -> Result<Microsurface<P, Linear<M::Scalar>>, Error> {
+        Ok(Microsurface::new(self.profile, moved(&self.map, matrix)?))
+    }
+
+    /// The microsurface stretched along x and compressed along y for s > 0, the other way round for s < 0: moved
+    /// by diag(1/(1−s), 1−s) or diag(1+s, 1/(1+s)).
+    ///
+    /// # Errors
+    /// [`Error::Stretch`] unless −1 < s < 1, [`Error::Map`] where a principal α leaves its range.
+    ///
+    /// # References
+    /// Atanasov, Koylazov, Dimov and Wilkie 2022, Eq. 31.
+    pub fn stretched(&self, s: M::Scalar) -> Result<Microsurface<P, M::Stretched>, Error> {
+        let one = M::Scalar::ONE;
+        if !(s > -one && s < one) {
+            return Err(Error::Stretch { value: s.to_f64() });
+        }
+        let (scale_x, scale_y) =
+            if s >= M::Scalar::ZERO { (one / (one - s), one - s) } else { (one + s, one / (one + s)) };
+        Ok(Microsurface::new(self.profile, self.map.stretched(scale_x, scale_y)?))
+    }
+}
+
+impl<P: Profile<M::Scalar>, M: Map> Ndf for Microsurface<P, M> {
+    type Scalar = M::Scalar;
+
+    #[inline]
+    fn d(&self, wm: Vec3<Self>) -> M::Scalar {
+        let m: [M::Scalar; 3] = wm.into();
+        let d = self.profile.d(&self.map, m, M::Scalar::ONE);
+        if m[2] < M::Scalar::ZERO { M::Scalar::ZERO } else { d }
+    }
+
+    #[inline]
+    fn d_along(&self, h: Vec3<Self>) -> M::Scalar {
+        let h: [M::Scalar; 3] = h.into();
+        self.profile.d(&self.map, h, dot(h, h))
+    }
+
+    #[inline]
+    fn p22(&self, slope: Vec2<Self>) -> M::Scalar {
+        let [x, y]: [M::Scalar; 2] = slope.into();
+        self.profile.d(&self.map, [-x, -y, M::Scalar::ONE], M::Scalar::ONE)
+    }
+
+    #[inline]
+    fn sigma(&self, w: Vec3<Self>) -> M::Scalar {
+        let w: [M::Scalar; 3] = w.into();
+        let s2 = self.map.direction_term(w);
+        if w[2] < M::Scalar::ZERO {
+            self.profile.sigma_backfacing(s2, -w[2])
+        } else {
+            self.profile.sigma_above(s2, w[2])
+        }
+    }
+
+    #[inline]
+    fn sigma_above(&self, w: Vec3<Self>) -> M::Scalar {
+        let w: [M::Scalar; 3] = w.into();
+        self.profile.sigma_above(self.map.direction_term(w), w[2])
+    }
+
+    #[inline]
+    fn lambda(&self, w: Vec3<Self>) -> M::Scalar {
+        let w: [M::Scalar; 3] = w.into();
+        let [x, y, z] = w;
+        let lambda = self.profile.lambda(&self.map, [x, y, z.abs()]);
+        if z < M::Scalar::ZERO { -M::Scalar::ONE - lambda } else { lambda }
+    }
+}
+
+impl<P: SampleProfile<M::Scalar>, M: Map> SampleNdf for Microsurface<P, M> {
+    #[inline]
+    fn sample_d(&self, u: Vec2<Self>) -> Vec3<Self> {
+        normalized(self.map.push_normal(self.profile.sample_d(u.into()))).into()
+    }
+}
+
+impl<P: SampleVisibleProfile<M::Scalar>, M: Map> SampleVndf for Microsurface<P, M> {
+    #[inline]
+    fn sample_vndf(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self> {
+        let w: [M::Scalar; 3] = w.into();
+        let m = self.profile.sample_visible(self.map.pull_direction(w), u.into());
+        turned_into_view(w, normalized(self.map.push_normal(m))).into()
+    }
+}
+
+/// The normal m, turned towards w by a few roundings where rounding had turned it away.
+///
+/// The facets at the edge of visibility have w·m = 0; a sample there may come out behind by the rounding of the
+/// sum, and would have no density. The push is at most 4ε of the terms of w·m, the rounding itself.
+#[inline(always)]
+fn turned_into_view<T: Real>(w: [T; 3], m: [T; 3]) -> [T; 3] {
+    let terms = [w[0] * m[0], w[1] * m[1], w[2] * m[2]];
+    let margin = T::lit(4.0) * T::EPSILON * (terms[0].abs() + terms[1].abs() + terms[2].abs());
+    let push = (margin - (terms[0] + terms[1] + terms[2])).max(T::ZERO);
+    [m[0] + push * w[0], m[1] + push * w[1], m[2] + push * w[2]]
+}

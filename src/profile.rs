@@ -1,0 +1,101 @@
+//! Isotropic slope profiles: what the distributions differ in.
+//!
+//! A profile is two homogeneous functions, of which everything else is made: the density P(q, z²) and the
+//! projected area σ_P(s², z). Under a map M of the tangent plane (see [`crate::map`])
+//!
+//! D(wm) = |det M| P(|Mᵀ wm_xy|², wm.z²),  σ(w) = σ_P(|M⁻¹ w_xy|², w.z).
+//!
+//! P is of degree −2, so D at h/|h| is |h|⁴ times the value at h: no normalisation is needed.
+//!
+//! | profile | P(q, z²) | σ_P(s², z) |
+//! |---|---|---|
+//! | [`Ggx`](ggx::Ggx) | 1/(π (q + z²)²) | ½(z + √(z² + s²)) |
+//! | [`Beckmann`](beckmann::Beckmann) | exp(−q/z²)/(π z⁴) | z + ½ s e^{−ν²} ierfcx(ν), ν = z/s |
+//! | [`Gtr`](gtr::Gtr) | c (z² + q)^{γ−2}/(q + α² z²)^γ | see [`gtr`] |
+
+pub mod beckmann;
+pub mod ggx;
+pub mod gtr;
+
+use crate::Real;
+use crate::map::Map;
+
+/// An isotropic slope profile.
+///
+/// Implement it to add a distribution that lives under every map; implement [`Ndf`](crate::Ndf) directly for one
+/// that is not an isotropic profile.
+pub trait Profile<T: Real>: Copy {
+    /// |m|⁴ |det M| P(|Mᵀ m_xy|², m.z²): D in the direction of m, whose squared length is `length2`.
+    ///
+    /// # Domain
+    /// m.z ≥ 0, m ≠ 0.
+    fn d<M: Map<Scalar = T>>(&self, map: &M, m: [T; 3], length2: T) -> T;
+
+    /// σ_P(s², z) for z ≥ 0.
+    fn sigma_above(&self, s2: T, z: T) -> T;
+
+    /// The projected area of the facets that look away, z Λ = σ_P(s², z) − z = σ_P(s², −z), for z ≥ 0.
+    ///
+    /// Evaluated without the cancellation of that difference.
+    fn sigma_backfacing(&self, s2: T, z: T) -> T;
+
+    /// Λ at a direction whose z is positive.
+    #[inline(always)]
+    fn lambda<M: Map<Scalar = T>>(&self, map: &M, w: [T; 3]) -> T {
+        self.sigma_backfacing(map.direction_term(w), w[2]) / w[2]
+    }
+}
+
+/// A profile whose normals can be drawn with density D cos θ.
+pub trait SampleProfile<T: Real>: Profile<T> {
+    /// A normal of the profile itself (map I), of any length, from u ∈ [0, 1)².
+    fn sample_d(&self, u: [T; 2]) -> [T; 3];
+}
+
+/// A profile whose visible normals can be drawn.
+pub trait SampleVisibleProfile<T: Real>: Profile<T> {
+    /// A normal of the profile itself (map I), of any length, visible from `v`, a vector of any length.
+    fn sample_visible(&self, v: [T; 3], u: [T; 2]) -> [T; 3];
+}
+
+/// The constructors of a profile without parameters of its own, whose width is the map's.
+macro_rules! shape_invariant {
+    ($profile:ident) => {
+        impl $profile {
+            /// The distribution of slope width α in every direction.
+            ///
+            /// # Errors
+            /// [`Error::Alpha`](crate::Error::Alpha) unless α is within
+            /// [`alpha_range`](crate::roughness::alpha_range).
+            #[inline]
+            pub fn isotropic<T: crate::Real>(
+                alpha: T,
+            ) -> Result<crate::Microsurface<Self, crate::map::Isotropic<T>>, crate::Error> {
+                Ok(crate::Microsurface::new(Self, crate::map::Isotropic::new(alpha)?))
+            }
+
+            /// The distribution of slope widths αx along x and αy along y.
+            ///
+            /// # Errors
+            /// [`Error::Alpha`](crate::Error::Alpha) unless both are within
+            /// [`alpha_range`](crate::roughness::alpha_range).
+            #[inline]
+            pub fn anisotropic<T: crate::Real>(
+                alpha_x: T,
+                alpha_y: T,
+            ) -> Result<crate::Microsurface<Self, crate::map::AxisAligned<T>>, crate::Error> {
+                Ok(crate::Microsurface::new(Self, crate::map::AxisAligned::new(alpha_x, alpha_y)?))
+            }
+
+            /// The distribution of a roughness matrix A: slope widths that differ along any two directions.
+            #[inline]
+            #[must_use]
+            pub fn from_roughness_matrix<T: crate::Real>(
+                matrix: crate::roughness::RoughnessMatrix<T>,
+            ) -> crate::Microsurface<Self, crate::map::Linear<T>> {
+                crate::Microsurface::new(Self, crate::map::Linear::from(matrix))
+            }
+        }
+    };
+}
+pub(crate) use shape_invariant;

@@ -1,0 +1,275 @@
+//! GTR, the generalised distribution of Trowbridge and Reitz, with a tail of any weight.
+//!
+//! D ∝ 1/(α² cos²θ + sin²θ)^γ: γ = 2 is GGX, γ < 2 has heavier tails, γ > 2 lighter ones, γ = 1 is the Berry
+//! distribution, and γ = 0 or α = 1 does not depend on the angle. It is not shape-invariant: α and the map are
+//! different things, and a stretched GTR is no GTR of another α.
+//!
+//! The density ([`Density`]) is one formula for every γ; masking comes in kinds, the second parameter of [`Gtr`]:
+//! [`Closed<G>`](closed::Closed), exact for the integers 0 … 4, and [`Spline`](spline::Spline), the papers'
+//! interpolation between them.
+
+pub mod closed;
+pub mod spline;
+
+use crate::Real;
+use crate::elementary::{exp_m1, ln_1p, pow_wide, sin_cos_turns};
+use crate::error::Error;
+use crate::map::{Isotropic, Map};
+use crate::microsurface::Microsurface;
+use crate::profile::{Profile, SampleProfile};
+use crate::real::construction;
+use crate::roughness::checked;
+
+/// GTR slopes with the masking of kind `K`.
+///
+/// D = c/(α² wm.z² + wm.x² + wm.y²)^γ with c = (γ−1)(α²−1)/(π(1 − α^{2−2γ})), whose limits at γ = 1 and α = 1 are
+/// reached smoothly; under a map, c (z² + q)^{γ−2}/(q + α² z²)^γ, see [`crate::profile`].
+///
+/// | constructor | masking | for |
+/// |---|---|---|
+/// | [`Gtr::closed`] | exact | integer γ: nothing is paid for the others |
+/// | [`Gtr::spline`] | the papers' interpolation | comparison with V-Ray; errors in [`spline`] |
+///
+/// # Numerics
+/// The power is taken of (q/α² + z²)/(q + z²) ∈ [1, 1/α²], formed in f64, and scaled by the density at the pole, so
+/// that nothing overflows for any γ. γ − 1 enters only through y/(eʸ − 1) with y = (γ − 1) ln α².
+///
+/// # References
+/// Burley 2012, "Physically-based shading at Disney", Appendix B; Dimov 2015; Atanasov, Koylazov, Dimov and
+/// Wilkie 2022, Eqs. 32–39.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "Parameters<T>", into = "Parameters<T>"))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "T: Real + serde::Serialize, K: Masking<T>",
+        deserialize = "T: Real + serde::Deserialize<'de>, K: Masking<T>"
+    ))
+)]
+pub struct Gtr<T: Real, K> {
+    density: Density<T>,
+    masking: K,
+}
+
+impl<T: Real, K> Gtr<T, K> {
+    /// α, the width of the peak.
+    #[inline]
+    #[must_use]
+    pub fn alpha(&self) -> T {
+        self.density.alpha
+    }
+
+    /// γ, the exponent of the tail.
+    #[inline]
+    #[must_use]
+    pub fn gamma(&self) -> T {
+        self.density.gamma
+    }
+
+    /// The density and its sampling, without a mask.
+    #[inline]
+    #[must_use]
+    pub fn density(&self) -> &Density<T> {
+        &self.density
+    }
+
+    /// The masking.
+    #[inline]
+    #[must_use]
+    pub fn masking(&self) -> &K {
+        &self.masking
+    }
+}
+
+impl<T: Real, K: Masking<T>> Gtr<T, K> {
+    fn new(alpha: T, gamma: T) -> Result<Self, Error> {
+        Ok(Self { density: Density::new(alpha, gamma)?, masking: K::new(alpha, gamma)? })
+    }
+
+    /// The profile under the identity.
+    fn surface(alpha: T, gamma: T) -> Result<Microsurface<Self, Isotropic<T>>, Error> {
+        Ok(Microsurface::new(Self::new(alpha, gamma)?, Isotropic::new(T::ONE)?))
+    }
+}
+
+/// How the projected area of a GTR is computed.
+pub trait Masking<T: Real>: Copy {
+    /// The mask for the width α, checked by the caller, and the exponent γ.
+    ///
+    /// # Errors
+    /// [`Error::Gamma`] or [`Error::Parameter`] for a γ that this kind does not cover.
+    fn new(alpha: T, gamma: T) -> Result<Self, Error>;
+
+    /// σ_P(s², z) for z ≥ 0.
+    fn sigma_above(&self, s2: T, z: T) -> T;
+
+    /// z Λ = σ_P(s², −z) for z ≥ 0, without cancellation.
+    fn sigma_backfacing(&self, s2: T, z: T) -> T;
+}
+
+impl<T: Real, K: Masking<T>> Profile<T> for Gtr<T, K> {
+    #[inline(always)]
+    fn d<M: Map<Scalar = T>>(&self, map: &M, m: [T; 3], length2: T) -> T {
+        let (q, z2) = map.normal_terms_wide(m);
+        map.scale() * self.density.homogeneous(q, z2, length2)
+    }
+
+    #[inline(always)]
+    fn sigma_above(&self, s2: T, z: T) -> T {
+        self.masking.sigma_above(s2, z)
+    }
+
+    #[inline(always)]
+    fn sigma_backfacing(&self, s2: T, z: T) -> T {
+        self.masking.sigma_backfacing(s2, z)
+    }
+}
+
+impl<T: Real, K: Masking<T>> SampleProfile<T> for Gtr<T, K> {
+    #[inline(always)]
+    fn sample_d(&self, u: [T; 2]) -> [T; 3] {
+        self.density.sample(u)
+    }
+}
+
+/// The density of GTR for any γ ≥ 0 and 0 < α ≤ 1, and normals drawn from it.
+///
+/// # Example
+/// γ = 3/2 is the Henyey–Greenstein function of the half vector.
+/// ```
+/// use microsurface::{glam::DVec3, profile::gtr::Density};
+/// let alpha = 0.3_f64;
+/// let d = Density::new(alpha, 1.5)?.d(DVec3::new(0.6, 0.0, 0.8));
+/// let c = alpha * (1.0 + alpha) / (2.0 * core::f64::consts::PI);
+/// let henyey_greenstein = c / (0.36 + alpha * alpha * 0.64).powf(1.5);
+/// assert!((d / henyey_greenstein - 1.0).abs() < 1e-14);
+/// # Ok::<(), microsurface::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Density<T: Real> {
+    alpha: T,
+    gamma: T,
+    /// π D at the pole.
+    peak: T,
+    /// 1/(1 − γ) and v^{1−γ} − 1 at the ends of the range of v, where the other end is 1: see [`Self::sample`].
+    inv_one_minus_gamma: T::Wide,
+    to_horizon: T::Wide,
+    to_pole: T::Wide,
+    /// 1/(1 − α²) and α²/(1 − α²).
+    inv_range: T::Wide,
+    scaled_range: T::Wide,
+}
+
+/// Nearer to γ = 1 than this, γ counts as this far from it: what is computed from γ − 1 agrees with the limit to
+/// (γ − 1) ln α² < 2⁻⁵⁰, the rounding of f64. 2⁻⁶⁰.
+const LIMIT_EXCESS: f64 = 8.673617379884035e-19;
+
+/// α^{2γ−2} and its inverse are representable in f64 up to this exponent.
+const LARGEST_EXPONENT: f64 = 700.0;
+
+/// 1 − α² and ln α². α = 1 counts as the next smaller width, whose distribution differs by its rounding.
+pub(crate) fn range_and_log(alpha: f64) -> (f64, f64) {
+    let range = ((1.0 - alpha) * (1.0 + alpha)).max(f64::EPSILON);
+    let log = if alpha < 0.5 { 2.0 * construction::ln(alpha) } else { construction::ln_1p(-range) };
+    (range, log)
+}
+
+impl<T: Real> Density<T> {
+    /// The density of width α and tail exponent γ.
+    ///
+    /// # Errors
+    /// [`Error::Alpha`] or [`Error::AlphaAboveOne`] unless 0 < α ≤ 1, [`Error::Gamma`] unless γ ≥ 0 and
+    /// |γ − 1| ≤ 700/|ln α²|: at least 10 for every α ≥ 1e-16.
+    pub fn new(alpha: T, gamma: T) -> Result<Self, Error> {
+        let alpha = checked(alpha)?;
+        let (a, g) = (alpha.to_f64(), gamma.to_f64());
+        if a > 1.0 {
+            return Err(Error::AlphaAboveOne { value: a });
+        }
+        let (range, log) = range_and_log(a);
+        let excess = if (g - 1.0).abs() < LIMIT_EXCESS { LIMIT_EXCESS } else { g - 1.0 };
+        let y = excess * log;
+        if !(g >= 0.0 && y.abs() <= LARGEST_EXPONENT) {
+            return Err(Error::Gamma { value: g, largest: 1.0 - LARGEST_EXPONENT / log });
+        }
+        let to_horizon = construction::exp_m1(y);
+        let peak = range / -log * (y / to_horizon) / (a * a);
+        let wide = T::Wide::lit;
+        Ok(Self {
+            alpha,
+            gamma,
+            peak: T::lit(peak),
+            inv_one_minus_gamma: wide(-1.0 / excess),
+            to_horizon: wide(to_horizon),
+            to_pole: wide(construction::exp_m1(-y)),
+            inv_range: wide(1.0 / range),
+            scaled_range: wide(a * a / range),
+        })
+    }
+
+    /// D(wm) of the isotropic distribution, for any γ, 1/sr.
+    ///
+    /// # Special cases
+    /// wm.z < 0 → 0.
+    #[inline]
+    #[must_use]
+    pub fn d(&self, wm: T::Vec3) -> T {
+        let m: [T; 3] = wm.into();
+        let [x, y, z] = m.map(T::widen);
+        let d = T::FRAC_1_PI * self.homogeneous(x * x + y * y, z * z, T::ONE);
+        if m[2] < T::ZERO { T::ZERO } else { d }
+    }
+
+    /// `length2`² π c (z² + q)^{γ−2}/(q + α²z²)^γ.
+    #[inline(always)]
+    fn homogeneous(&self, q: T::Wide, z2: T::Wide, length2: T) -> T {
+        let alpha = self.alpha.widen();
+        let alpha2 = alpha * alpha;
+        let sum = q + z2;
+        let falloff = (q + alpha2 * z2) / (alpha2 * sum);
+        // The root of the power: at α = 1e-6 and γ = 4 the power itself underflows in f32 where D does not.
+        let root = length2 / T::narrow(sum) * pow_wide::<T>(falloff, -(T::HALF * self.gamma));
+        self.peak * root * root
+    }
+
+    /// A normal of density D cos θ, of any length: sin²θ by inversion from u.x, azimuth 2π u.y.
+    ///
+    /// With v = sin²θ + α² cos²θ ∈ [α², 1], v^{1−γ} is uniform (Burley 2012, Eq. B.2). The sine follows from v/α²
+    /// and the cosine from v, each by way of eˣ − 1 and ln(1 + x), so that neither pole nor horizon cancels and
+    /// γ = 1 needs no case of its own.
+    #[inline(always)]
+    fn sample(&self, [u1, u2]: [T; 2]) -> [T; 3] {
+        let u = u1.widen();
+        let log_from_pole = ln_1p(u * self.to_horizon) * self.inv_one_minus_gamma;
+        let log_to_horizon = ln_1p((T::Wide::ONE - u) * self.to_pole) * self.inv_one_minus_gamma;
+        let sin = (self.scaled_range * exp_m1(log_from_pole)).max(T::Wide::ZERO).sqrt();
+        let cos = (-self.inv_range * exp_m1(log_to_horizon)).max(T::Wide::ZERO).sqrt();
+        let (sin_phi, cos_phi) = sin_cos_turns(u2);
+        let (sin, cos) = (T::narrow(sin), T::narrow(cos));
+        [sin * cos_phi, sin * sin_phi, cos]
+    }
+}
+
+/// What is serialised of a GTR: what it was built from.
+#[cfg(feature = "serde")]
+#[derive(serde::Serialize, serde::Deserialize)]
+struct Parameters<T> {
+    alpha: T,
+    gamma: T,
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real, K> From<Gtr<T, K>> for Parameters<T> {
+    fn from(gtr: Gtr<T, K>) -> Self {
+        Self { alpha: gtr.alpha(), gamma: gtr.gamma() }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<T: Real, K: Masking<T>> TryFrom<Parameters<T>> for Gtr<T, K> {
+    type Error = Error;
+    fn try_from(parameters: Parameters<T>) -> Result<Self, Error> {
+        Self::new(parameters.alpha, parameters.gamma)
+    }
+}
