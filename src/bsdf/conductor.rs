@@ -86,8 +86,7 @@ impl<T: Real> Half<T> {
         let h = [ix + ox, iy + oy, iz + oz];
         let length2 = dot(h, h);
         // Squares below the smallest normal number to the power ¾ have lost the digits of their components.
-        let shortest2 =
-            T::lit(if T::EPSILON.to_f64() > 1e-10 { 1.2621774483536189e-29 } else { 6.441148769597133e-232 });
+        let shortest2 = T::lit(if T::WIDENS { 1.2621774483536189e-29 } else { 6.441148769597133e-232 });
         let dark = iz <= T::ZERO || oz <= T::ZERO || length2 < shortest2;
         Self { h, length: length2.sqrt(), reflects: !dark }
     }

@@ -80,7 +80,7 @@ pub struct ErfInv {
 
 /// c₀ + c₁x + c₂x² + …, as two polynomials in x² so that both are evaluated at once.
 #[inline(always)]
-pub(super) fn polynomial<T: Real>(x: T, c: &'static [f64]) -> T {
+pub(crate) fn polynomial<T: Real>(x: T, c: &[f64]) -> T {
     polynomial_of(x, c.len(), |i| T::lit(c[i]))
 }
 

@@ -48,7 +48,7 @@ impl<T: Real> Profile<T> for Beckmann {
         let root = length2 / T::narrow(z2) * exp_wide::<T>(-(T::Wide::HALF * exponent));
         let d = map.scale() * (root * root);
         // Towards the horizon 1/z² overflows after the exponential has vanished.
-        let vanished = T::Wide::lit(if T::EPSILON.to_f64() > 1e-10 { 208.0 } else { 1492.0 });
+        let vanished = T::Wide::lit(if T::WIDENS { 208.0 } else { 1492.0 });
         if exponent > vanished { T::ZERO } else { d }
     }
 

@@ -56,6 +56,7 @@
 //!   2014, doi 10.1111/cgfm.12417.
 //! - W. Jakob, "An Improved Visible Normal Sampling Routine for the Beckmann Distribution", 2014.
 
+use crate::elementary::kernel::polynomial;
 use crate::elementary::{exp, ln};
 use crate::real::Real;
 
@@ -132,23 +133,6 @@ const LAST: f64 = 8.881784197001252e-16; // 2⁻⁵⁰
 const CLOSER: f64 = 9.094947017729282e-13; // 2⁻⁴⁰
 /// The guess keeps this part of the way to ν, where its own error could pass it.
 const MARGIN: f64 = 0.00390625; // 2⁻⁸
-
-/// c₀ + c₁t + c₂t² + …, the even and the odd powers side by side.
-#[inline(always)]
-fn polynomial<W: Real>(t: W, c: &[f64]) -> W {
-    let square = t * t;
-    let (mut even, mut odd) = (W::ZERO, W::ZERO);
-    let mut i = c.len();
-    while i > 0 {
-        i -= 1;
-        if i % 2 == 0 {
-            even = even * square + W::lit(c[i]);
-        } else {
-            odd = odd * square + W::lit(c[i]);
-        }
-    }
-    even + t * odd
-}
 
 /// `a` if `condition`, else `b`; both are at hand.
 #[inline(always)]
@@ -316,7 +300,7 @@ pub(crate) fn visible_slope<T: Real>(nu: T::Wide, u: T) -> T::Wide {
 /// The fit of h for a scalar.
 #[inline(always)]
 fn fit<T: Real>() -> Fit {
-    if T::EPSILON > T::lit(1e-10) { SINGLE } else { DOUBLE }
+    if T::WIDENS { SINGLE } else { DOUBLE }
 }
 
 /// (ξ, f) of u.
@@ -326,7 +310,7 @@ fn solve<T: Real>(view: &View<T::Wide>, u: T) -> (T::Wide, T::Wide) {
     let xi = view.guess(u);
     let first = view.step((xi, view.bv + view.b * xi), u, fit::<T>());
     // f32 is content with one step
-    if T::EPSILON > T::lit(1e-10) { first } else { view.step(first, u, fit::<T>()) }
+    if T::WIDENS { first } else { view.step(first, u, fit::<T>()) }
 }
 
 #[cfg(test)]
