@@ -36,6 +36,7 @@ mod log;
 mod trig;
 
 pub use erf::{erf, erfc};
+pub(crate) use erf_inv::erfc_inv_wide;
 pub use erf_inv::{erf_inv, erfc_inv};
 pub use erfcx::{erfcx, ierfcx};
 pub use exp::{exp, exp_m1, exp_neg_square, exp_wide};

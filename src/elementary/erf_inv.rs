@@ -4,28 +4,47 @@
 //! the intervals is the same, so that only coefficients are selected, not results.
 
 use super::kernel::{ErfInv, polynomial_of};
-use super::ln;
+use super::{ln, ln_wide};
 use crate::real::Real;
 
-/// The x ≥ 0 with erf x = `p` and erfc x = `q`, both given, 0 ≤ p and q ≤ 1.
+/// The x ≥ 0 with erf x = `p` and erfc x = `q`, both given, 0 ≤ p and q ≤ 1; the coefficients are those of `T`, the
+/// arithmetic that of `W`.
 #[inline(always)]
-fn inverse<T: Real>(p: T, q: T) -> T {
+fn inverse<T: Real, W: Real>(p: W, q: W, ln: impl Fn(W) -> W) -> W {
     let [a, b, c] = T::ERF_INV;
-    let central = p < T::lit(0.9);
-    let w = -ln(if central { (T::ONE - p) * (T::ONE + p) } else { q });
+    let central = p < W::lit(0.9);
+    let w = -ln(if central { (W::ONE - p) * (W::ONE + p) } else { q });
     let r = w.sqrt();
-    let near = r < T::lit(b.end);
-    let v = if near { r - T::lit(b.shift) } else { r - T::lit(c.shift) };
+    let near = r < W::lit(b.end);
+    let v = if near { r - W::lit(b.shift) } else { r - W::lit(c.shift) };
     let v = if central { w } else { v };
     let pick = |table: fn(&ErfInv) -> &'static [f64]| {
         let (a, b, c) = (table(&a), table(&b), table(&c));
         polynomial_of(v, a.len(), |i| {
-            let tail = if near { T::lit(b[i]) } else { T::lit(c[i]) };
-            if central { T::lit(a[i]) } else { tail }
+            let tail = if near { W::lit(b[i]) } else { W::lit(c[i]) };
+            if central { W::lit(a[i]) } else { tail }
         })
     };
-    let num = pick(|i| i.num) * if central { p } else { T::ONE };
+    let num = pick(|i| i.num) * if central { p } else { W::ONE };
     num / pick(|i| i.den)
+}
+
+/// The inverse from both sides: erfc⁻¹ q for 0 ≤ q ≤ 2.
+#[inline(always)]
+fn inverse_of_complement<T: Real, W: Real>(q: W, ln: impl Fn(W) -> W) -> W {
+    let p = W::ONE - q;
+    let other = W::TWO - q;
+    let smaller = if other < q { other } else { q };
+    let x = inverse::<T, W>(p.abs(), smaller, ln);
+    let x = if smaller == W::ZERO { W::INFINITY } else { x };
+    if q > W::ONE { -x } else { x }
+}
+
+/// [`erfc_inv`] to the digits of `T`, computed in the wide scalar: the error is that of the fit, which is smooth, and
+/// so the result, rounded to `T`, is monotone ulp by ulp. Samplers want that.
+#[inline]
+pub(crate) fn erfc_inv_wide<T: Real>(q: T::Wide) -> T::Wide {
+    inverse_of_complement::<T, T::Wide>(q, ln_wide::<T>)
 }
 
 /// The inverse of the error function: the x with erf x = p.
@@ -59,7 +78,7 @@ fn inverse<T: Real>(p: T, q: T) -> T {
 #[inline]
 pub fn erf_inv<T: Real>(p: T) -> T {
     let a = p.abs();
-    let x = inverse(a, T::ONE - a);
+    let x = inverse::<T, T>(a, T::ONE - a, ln);
     let x = if a == T::ONE { T::INFINITY } else { x };
     x.copysign(p)
 }
@@ -92,10 +111,5 @@ pub fn erf_inv<T: Real>(p: T) -> T {
 #[must_use]
 #[inline]
 pub fn erfc_inv<T: Real>(q: T) -> T {
-    let p = T::ONE - q;
-    let other = T::TWO - q;
-    let smaller = if other < q { other } else { q };
-    let x = inverse(p.abs(), smaller);
-    let x = if smaller == T::ZERO { T::INFINITY } else { x };
-    if q > T::ONE { -x } else { x }
+    inverse_of_complement::<T, T>(q, ln)
 }
