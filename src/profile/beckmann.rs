@@ -127,7 +127,7 @@ impl<M: Map> Microsurface<Beckmann, M> {
     /// (3.535 a + 2.181 a²)/(1 + 2.276 a + 2.577 a²) below a = 1.6, 1 above.
     ///
     /// # Accuracy
-    /// max |ΔG1| = 3.11e-3, at a = 1.338; above 1 by 6.1e-5 just below a = 1.6, where it steps.
+    /// max |ΔG1| = 3.11e-3, at a = 1.338; above 1 by up to 6.1e-5 from a = 1.548 to 1.6, where it steps down by 5.7e-5.
     ///
     /// # References
     /// Walter, Marschner, Li and Torrance 2007, Eq. 27 (after Schlick).

@@ -2,4 +2,5 @@
 #![expect(clippy::unwrap_used, reason = "a surface that cannot be built is a failed test")]
 
 mod accuracy;
+mod approximations;
 mod elementary;
