@@ -62,6 +62,9 @@ pub trait Kernel: Copy {
     /// The number with the lower half of its digits zeroed, so that products of two such are exact.
     #[must_use]
     fn upper_half(self) -> Self;
+    /// The sine and cosine of an angle, turned on by `quarters` of a turn, a small integer.
+    #[must_use]
+    fn turned(sin: Self, cos: Self, quarters: Self) -> (Self, Self);
 }
 
 /// One interval of the inverse error function.
@@ -125,6 +128,19 @@ macro_rules! bits {
         #[inline(always)]
         fn upper_half(self) -> Self {
             $t::from_bits(self.to_bits() & $half_mask)
+        }
+        // As operations on bits: selects between two results by the quarter become unpredictable branches in
+        // scalar code.
+        #[inline(always)]
+        fn turned(sin: Self, cos: Self, quarters: Self) -> (Self, Self) {
+            // the sum's low bits are those of the integer
+            let quarters = (quarters + Self::lit(Self::ROUND)).to_bits();
+            let (sin, cos) = (sin.to_bits(), cos.to_bits());
+            let swapped = (sin ^ cos) & (quarters & 1).wrapping_neg();
+            let sign = |quarters| (quarters & 2) << (size_of::<Self>() * 8 - 2);
+            let sin = sin ^ swapped ^ sign(quarters);
+            let cos = cos ^ swapped ^ sign(quarters.wrapping_add(1));
+            ($t::from_bits(sin), $t::from_bits(cos))
         }
     };
 }

@@ -41,10 +41,6 @@ pub fn sin_cos_turns<T: Real>(u: T) -> (T, T) {
     let z = r * r;
     let sin = r * T::lit(T::TAU.0) + r * (T::lit(T::TAU.1) + z * polynomial(z, T::SIN));
     let cos = T::ONE + z * polynomial(z, T::COS);
-    let odd = quarter.abs() == T::ONE;
-    let (s, c) = if odd { (cos, sin) } else { (sin, cos) };
-    let half = quarter.abs() == T::TWO;
-    let s = if half || quarter == -T::ONE { -s } else { s };
-    let c = if half || quarter == T::ONE { -c } else { c };
+    let (s, c) = T::turned(sin, cos, quarter);
     (s * T::ONE.copysign(u), c)
 }
