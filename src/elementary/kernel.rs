@@ -62,9 +62,9 @@ pub trait Kernel: Copy {
     /// The number with the lower half of its digits zeroed, so that products of two such are exact.
     #[must_use]
     fn upper_half(self) -> Self;
-    /// The sine and cosine of an angle, turned on by `quarters` of a turn, a small integer.
+    /// The sine and cosine of an angle, turned on by n quarters of a turn, for the sum n + `ROUND`.
     #[must_use]
-    fn turned(sin: Self, cos: Self, quarters: Self) -> (Self, Self);
+    fn turned(sin: Self, cos: Self, sum: Self) -> (Self, Self);
 }
 
 /// One interval of the inverse error function.
@@ -129,18 +129,18 @@ macro_rules! bits {
         fn upper_half(self) -> Self {
             $t::from_bits(self.to_bits() & $half_mask)
         }
-        // As operations on bits: selects between two results by the quarter become unpredictable branches in
-        // scalar code.
+        // Selects between two results by the quarter would become unpredictable branches in scalar code, and bit
+        // operations on the results denormal rubbish in unused lanes; products with 0 and ±1 are exact.
         #[inline(always)]
-        fn turned(sin: Self, cos: Self, quarters: Self) -> (Self, Self) {
+        fn turned(sin: Self, cos: Self, sum: Self) -> (Self, Self) {
             // the sum's low bits are those of the integer
-            let quarters = (quarters + Self::lit(Self::ROUND)).to_bits();
-            let (sin, cos) = (sin.to_bits(), cos.to_bits());
-            let swapped = (sin ^ cos) & (quarters & 1).wrapping_neg();
-            let sign = |quarters| (quarters & 2) << (size_of::<Self>() * 8 - 2);
-            let sin = sin ^ swapped ^ sign(quarters);
-            let cos = cos ^ swapped ^ sign(quarters.wrapping_add(1));
-            ($t::from_bits(sin), $t::from_bits(cos))
+            let quarters = sum.to_bits();
+            let odd = (quarters & 1).wrapping_neg();
+            let one = |quarters| (1.0 as $t).to_bits() | (quarters & 2) << (size_of::<Self>() * 8 - 2);
+            let (of_sin, of_cos) = (one(quarters), one(quarters.wrapping_add(1)));
+            let [same, other] = [of_sin & !odd, of_sin & odd].map($t::from_bits);
+            let [cos_same, cos_other] = [of_cos & !odd, of_cos & odd].map($t::from_bits);
+            (sin * same + cos * other, cos * cos_same + sin * cos_other)
         }
     };
 }

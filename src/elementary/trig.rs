@@ -35,12 +35,19 @@ pub fn sin_cos_turns<T: Real>(u: T) -> (T, T) {
     let magic = T::lit(T::ROUND_POSITIVE);
     // larger numbers are integers
     let turns = if a < magic { (a + magic) - magic } else { a };
-    let a = a - turns; // exact, |a| ≤ ½
-    let quarter = super::exp::round(a * T::lit(4.0));
-    let r = a - quarter * T::lit(0.25); // exact, |r| ≤ 1/8
+    // exact, |a| ≤ ½
+    let (s, c) = sin_cos_within_turns(a - turns);
+    (s * T::ONE.copysign(u), c)
+}
+
+/// (sin 2πu, cos 2πu) for few turns, such as a random number: |u| ≤ 1024.
+#[inline(always)]
+pub(crate) fn sin_cos_within_turns<T: Real>(u: T) -> (T, T) {
+    let magic = T::lit(T::ROUND);
+    let sum = u * T::lit(4.0) + magic;
+    let r = u - (sum - magic) * T::lit(0.25); // exact, |r| ≤ 1/8
     let z = r * r;
     let sin = r * T::lit(T::TAU.0) + r * (T::lit(T::TAU.1) + z * polynomial(z, T::SIN));
     let cos = T::ONE + z * polynomial(z, T::COS);
-    let (s, c) = T::turned(sin, cos, quarter);
-    (s * T::ONE.copysign(u), c)
+    T::turned(sin, cos, sum)
 }

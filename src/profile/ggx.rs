@@ -1,7 +1,7 @@
 //! GGX, the distribution of Trowbridge and Reitz.
 
 use crate::Real;
-use crate::elementary::sin_cos_turns;
+use crate::elementary::sin_cos_within_turns;
 use crate::map::Map;
 use crate::profile::{Profile, SampleProfile, SampleVisibleProfile, shape_invariant};
 
@@ -57,7 +57,7 @@ impl<T: Real> SampleProfile<T> for Ggx {
     /// tan²θ = u.x/(1 − u.x), azimuth 2π u.y: Walter 2007, Eqs. 35–36.
     #[inline(always)]
     fn sample_d(&self, [u1, u2]: [T; 2]) -> [T; 3] {
-        let (sin, cos) = sin_cos_turns(u2);
+        let (sin, cos) = sin_cos_within_turns(u2);
         let radius = u1.sqrt();
         [radius * cos, radius * sin, (T::ONE - u1).sqrt()]
     }
@@ -67,18 +67,18 @@ impl<T: Real> SampleVisibleProfile<T> for Ggx {
     /// A point c uniform on the spherical cap c.z ≥ −v.z, azimuth 2π u.x and height by u.y; the normal is c + v.
     ///
     /// Written with p = 1 + v.z and n = 1 − v.z, nothing cancels: (c + v).z = (1 − u.y) p, and the radius of c is
-    /// √((1 − c.z)(1 + c.z)) = √(u.y p ((1 − u.y) p + n)).
+    /// √((1 − c.z)(1 + c.z)) = √(u.y (p (1 − u.y) p + p n)), p n = s² of the normalised v.
     #[inline(always)]
     fn sample_visible(&self, v: [T; 3], [u1, u2]: [T; 2]) -> [T; 3] {
         let s2 = v[0] * v[0] + v[1] * v[1];
         let inv_length = T::ONE / (s2 + v[2] * v[2]).sqrt();
-        // The larger of 1 ± v.z is well conditioned, the smaller follows from their product s².
+        // p n = s², and the larger of p and n is well conditioned.
+        let product = s2 * (inv_length * inv_length);
         let larger = T::ONE + v[2].abs() * inv_length;
-        let smaller = s2 * (inv_length * inv_length) / larger;
-        let (p, n) = if v[2] < T::ZERO { (smaller, larger) } else { (larger, smaller) };
+        let p = if v[2] < T::ZERO { product / larger } else { larger };
         let z = (T::ONE - u2) * p;
-        let radius = (u2 * p * (z + n)).sqrt();
-        let (sin, cos) = sin_cos_turns(u1);
+        let radius = (u2 * (p * z + product)).sqrt();
+        let (sin, cos) = sin_cos_within_turns(u1);
         [radius * cos + v[0] * inv_length, radius * sin + v[1] * inv_length, z]
     }
 }
