@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::map::{Linear, Map, moved};
 use crate::ndf::{Ndf, SampleNdf, SampleVndf, Vec2, Vec3};
 use crate::profile::{Profile, SampleProfile, SampleVisibleProfile};
-use crate::vector::{dot, normalized};
+use crate::vector::{dot, normalized, positive_part};
 
 /// A microsurface: the isotropic slope profile `P` seen through the linear map `M` of the tangent plane.
 ///
@@ -161,18 +161,23 @@ impl<P: SampleVisibleProfile<M::Scalar>, M: Map> SampleVndf for Microsurface<P, 
     fn sample_vndf(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self> {
         let w: [M::Scalar; 3] = w.into();
         let m = self.profile.sample_visible(self.map.pull_direction(w), u.into());
-        turned_into_view(w, normalized(self.map.push_normal(m))).into()
+        turned_into_view(w, self.map.push_normal(m)).into()
     }
 }
 
-/// The normal m, turned towards w by a few roundings where rounding had turned it away.
+/// The direction of m, of any length, turned towards w where rounding had turned it away.
 ///
 /// The facets at the edge of visibility have w·m = 0; a sample there may come out behind by the rounding of the
-/// sum, and would have no density. The push is at most 4ε of the terms of w·m, the rounding itself.
+/// sum, and would have no density. It is moved along w to w·m of 8ε of the terms of the sum, and at least 2⁻⁶⁴ (f32)
+/// or 2⁻⁵¹² (f64) of the length where all terms vanish. The move is a rounding itself but at the very edge, where m
+/// is the difference of two equal vectors; hence it comes before the normalisation.
 #[inline(always)]
 fn turned_into_view<T: Real>(w: [T; 3], m: [T; 3]) -> [T; 3] {
     let terms = [w[0] * m[0], w[1] * m[1], w[2] * m[2]];
-    let margin = T::lit(4.0) * T::EPSILON * (terms[0].abs() + terms[1].abs() + terms[2].abs());
+    let least = T::lit(if T::WIDENS { 5.421010862427522e-20 } else { 7.458340731200207e-155 });
+    let margin = T::lit(8.0) * T::EPSILON * (terms[0].abs() + terms[1].abs() + terms[2].abs())
+        + least * (m[0].abs() + m[1].abs() + m[2].abs());
     let push = (margin - (terms[0] + terms[1] + terms[2])).max(T::ZERO);
-    [m[0] + push * w[0], m[1] + push * w[1], m[2] + push * w[2]]
+    // From below, the move must not take the normal of a vertical facet below the horizon.
+    normalized([m[0] + push * w[0], m[1] + push * w[1], positive_part(m[2] + push * w[2])])
 }
