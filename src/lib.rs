@@ -77,6 +77,11 @@
 #[cfg(feature = "std")]
 extern crate std;
 
+/// The README's example, as a documentation test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 pub mod bsdf;
 pub mod elementary;
 mod error;

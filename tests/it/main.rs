@@ -4,3 +4,4 @@
 mod accuracy;
 mod approximations;
 mod elementary;
+mod readme;

@@ -1,0 +1,156 @@
+//! The pictures: which materials, in which rows and columns.
+
+use microsurface::bsdf::{AllNormals, RoughConductor, VisibleNormals};
+use microsurface::fresnel::Perfect;
+use microsurface::glam::{Mat2, Vec3};
+use microsurface::profile::gtr::closed::Closed;
+use microsurface::roughness::RoughnessMatrix;
+use microsurface::{Beckmann, Error, Ggx, Gtr, Ndf, SampleNdf, SampleVndf};
+
+use crate::material::Material;
+use crate::metals::{ALUMINIUM, COPPER, GOLD, Metal};
+
+/// A material of a picture.
+pub(crate) struct Entry {
+    pub(crate) label: String,
+    /// Which normals are sampled.
+    pub(crate) sampling: &'static str,
+    pub(crate) material: Box<dyn Material>,
+    /// The same surface, reflecting everything.
+    pub(crate) furnace: Box<dyn Material>,
+}
+
+pub(crate) struct Picture {
+    /// The name of the file.
+    pub(crate) name: &'static str,
+    pub(crate) title: String,
+    /// One list of materials for each row, the furthest row first.
+    pub(crate) rows: Vec<Vec<Entry>>,
+}
+
+/// A surface of metal sampled by its visible normals.
+fn visible<N>(label: String, surface: N, metal: &Metal) -> Result<Entry, Error>
+where
+    N: SampleVndf + Ndf<Scalar = f32> + Copy + Sync + 'static,
+{
+    Ok(Entry {
+        label,
+        sampling: "visible",
+        material: Box::new(RoughConductor::new(surface, metal.fresnel()?)),
+        furnace: Box::new(RoughConductor::<_, _, VisibleNormals>::new(surface, Perfect::<Vec3>::new())),
+    })
+}
+
+/// A surface of metal sampled by all its normals: the visible ones of GTR have no simple sampler.
+fn all<N>(label: String, surface: N, metal: &Metal) -> Result<Entry, Error>
+where
+    N: SampleNdf + Ndf<Scalar = f32> + Copy + Sync + 'static,
+{
+    Ok(Entry {
+        label,
+        sampling: "all",
+        material: Box::new(RoughConductor::new(surface, metal.fresnel()?).sampled_by(AllNormals)),
+        furnace: Box::new(RoughConductor::new(surface, Perfect::<Vec3>::new()).sampled_by(AllNormals)),
+    })
+}
+
+/// Tails from the heaviest to the lightest, by roughness.
+pub(crate) fn tails() -> Result<Picture, Error> {
+    let row = |alpha: f32| -> Result<Vec<Entry>, Error> {
+        let metal = &ALUMINIUM;
+        let gtr = |gamma: &str| format!("GTR gamma={gamma}, alpha={alpha}");
+        Ok(vec![
+            all(gtr("0.5 (spline)"), Gtr::spline(alpha, 0.5)?, metal)?,
+            all(gtr("1"), Gtr::<_, Closed<_, 1>>::closed(alpha)?, metal)?,
+            all(gtr("1.5 (spline)"), Gtr::spline(alpha, 1.5)?, metal)?,
+            visible(format!("GGX, alpha={alpha}"), Ggx::isotropic(alpha)?, metal)?,
+            all(gtr("3"), Gtr::<_, Closed<_, 3>>::closed(alpha)?, metal)?,
+            all(gtr("4"), Gtr::<_, Closed<_, 4>>::closed(alpha)?, metal)?,
+            visible(format!("Beckmann, alpha={alpha}"), Beckmann::isotropic(alpha)?, metal)?,
+        ])
+    };
+    Ok(Picture {
+        name: "tails",
+        title: "Tails, aluminium. Columns: GTR of gamma 0.5, 1, 1.5, GGX (gamma 2), GTR 3, 4, Beckmann. \
+                Rows from the back: alpha 0.02, 0.08, 0.2, 0.5."
+            .to_owned(),
+        rows: [0.02, 0.08, 0.2, 0.5].into_iter().map(row).collect::<Result<_, _>>()?,
+    })
+}
+
+/// One width stretched along the tangents and between them.
+pub(crate) fn brushed() -> Result<Picture, Error> {
+    const ALPHA: f32 = 0.16;
+    const STRETCH: f32 = 0.65;
+    let metal = &COPPER;
+    // A surface drawn out along x by 1/(1 − s) and compressed along y by 1 − s has these widths.
+    let (along, across) = (ALPHA * (1.0 - STRETCH), ALPHA / (1.0 - STRETCH));
+    let widths = format!("alpha={along:.3} (across {across:.3}) along");
+    let turn = core::f32::consts::FRAC_PI_4;
+    let matrix = |angle| RoughnessMatrix::rotated(along, across, angle);
+
+    let beckmann = vec![
+        visible(format!("Beckmann, alpha={ALPHA}"), Beckmann::isotropic(ALPHA)?, metal)?,
+        visible(format!("Beckmann, {widths} x"), Beckmann::anisotropic(along, across)?, metal)?,
+        visible(format!("Beckmann, {widths} y"), Beckmann::anisotropic(across, along)?, metal)?,
+        visible(format!("Beckmann, {widths} 45°"), Beckmann::from_roughness_matrix(matrix(turn)?), metal)?,
+        visible(format!("Beckmann, {widths} -45°"), Beckmann::from_roughness_matrix(matrix(-turn)?), metal)?,
+    ];
+    let ggx = vec![
+        visible(format!("GGX, alpha={ALPHA}"), Ggx::isotropic(ALPHA)?, metal)?,
+        visible(format!("GGX, {widths} x"), Ggx::anisotropic(along, across)?, metal)?,
+        visible(format!("GGX, {widths} y"), Ggx::anisotropic(across, along)?, metal)?,
+        visible(format!("GGX, {widths} 45°"), Ggx::from_roughness_matrix(matrix(turn)?), metal)?,
+        visible(format!("GGX, {widths} -45°"), Ggx::from_roughness_matrix(matrix(-turn)?), metal)?,
+    ];
+    // The same by moving the microsurface, which any profile can be.
+    let spline = Gtr::spline(ALPHA, 1.5)?;
+    let rotation = Mat2::from_angle(turn);
+    let moved = "GTR gamma=1.5 (spline)";
+    let gtr = vec![
+        all(format!("{moved}, alpha={ALPHA}"), spline, metal)?,
+        all(format!("{moved}, stretched by {STRETCH}"), spline.stretched(STRETCH)?, metal)?,
+        all(format!("{moved}, stretched by -{STRETCH}"), spline.stretched(-STRETCH)?, metal)?,
+        all(format!("{moved}, turned 45°"), spline.stretched(STRETCH)?.transformed(rotation)?, metal)?,
+        all(
+            format!("{moved}, turned -45°"),
+            spline.stretched(STRETCH)?.transformed(rotation.transpose())?,
+            metal,
+        )?,
+    ];
+    Ok(Picture {
+        name: "brushed",
+        title: "Brushed copper, x around the vertical axis. Columns: isotropic, brushed along x, along y, \
+                at 45°, at -45°. Rows from the back: Beckmann, GGX, GTR of gamma 1.5."
+            .to_owned(),
+        rows: vec![beckmann, ggx, gtr],
+    })
+}
+
+/// Metals from smooth to rough.
+pub(crate) fn metals() -> Result<Picture, Error> {
+    let row = |metal: &Metal| -> Result<Vec<Entry>, Error> {
+        [0.005, 0.05, 0.12, 0.25, 0.5]
+            .into_iter()
+            .map(|alpha| visible(format!("{}, GGX alpha={alpha}", metal.name), Ggx::isotropic(alpha)?, metal))
+            .collect()
+    };
+    Ok(Picture {
+        name: "metals",
+        title: "Metals, GGX. Columns: alpha 0.005, 0.05, 0.12, 0.25, 0.5. Rows from the back: gold, copper, \
+                aluminium."
+            .to_owned(),
+        rows: [GOLD, COPPER, ALUMINIUM].iter().map(row).collect::<Result<_, _>>()?,
+    })
+}
+
+/// The material of a mesh.
+pub(crate) fn mesh() -> Result<Picture, Error> {
+    let brushed = Ggx::anisotropic(0.08, 0.3)?;
+    let entry = visible("gold, GGX alpha=0.08 (across 0.3) along x".to_owned(), brushed, &GOLD)?;
+    Ok(Picture {
+        name: "mesh",
+        title: "A mesh of gold, brushed along x, around the vertical axis.".to_owned(),
+        rows: vec![vec![entry]],
+    })
+}

@@ -1,0 +1,301 @@
+//! Reflection: `RoughConductor::sample` against `pdf`, the share of samples that are none, and mean weights.
+//!
+//! Directions to the light are binned by their half vector, in the chart of the surface's normals: an implicit
+//! change of variable whose Jacobian dwm/dwi = 1/(4 wo·wm) is the test's own (Walter 2007, Eq. 14). Normals that
+//! reflect below the horizon have no density; the samples that are none belong to them and make a cell of their own,
+//! whose expectation is what the integral of the pdf lacks to 1.
+
+use microsurface::profile::gtr::closed::Closed;
+use microsurface::{Beckmann, Ggx, Gtr, Real};
+
+use crate::chart::{Chart, Polar, Radial, Reflecting};
+use crate::chi_square::{Effort, Outcome, Subject, test};
+use crate::family::{Family, assert_rejected};
+use crate::points::Random;
+use crate::quadrature::Quadrature;
+use crate::special::{count, erfc};
+use crate::surfaces::{Conductor, MIRROR, SKEW, Shape, Surface, by_all_normals, by_visible_normals, surface};
+
+/// The distributions.
+#[derive(Debug, Clone, Copy)]
+enum Distribution {
+    Ggx,
+    Beckmann,
+    /// γ = 1 with its exact mask.
+    Berry(f64),
+}
+
+/// A BRDF seen from a direction.
+struct Case {
+    label: String,
+    brdf: Box<dyn Conductor>,
+    surface: Box<dyn Surface>,
+    chart: Reflecting,
+    wo: [f64; 3],
+}
+
+/// Which normals are sampled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Normals {
+    Visible,
+    All,
+}
+
+impl Case {
+    fn new<T>(distribution: Distribution, normals: Normals, shape: Shape, degrees: f64) -> Self
+    where
+        T: Real + microsurface::fresnel::Spectrum<Scalar = T>,
+    {
+        let berry = |alpha: f64| *Gtr::<T, Closed<T, 1>>::closed(T::lit(alpha)).unwrap().profile();
+        let (brdf, surface, radial) = match (distribution, normals) {
+            (Distribution::Ggx, Normals::Visible) => {
+                (by_visible_normals::<T, _>(Ggx, shape), surface::<T, _>(Ggx, shape), Radial::Ggx)
+            }
+            (Distribution::Ggx, Normals::All) => {
+                (by_all_normals::<T, _>(Ggx, shape), surface::<T, _>(Ggx, shape), Radial::Ggx)
+            }
+            (Distribution::Beckmann, Normals::Visible) => (
+                by_visible_normals::<T, _>(Beckmann, shape),
+                surface::<T, _>(Beckmann, shape),
+                Radial::Beckmann,
+            ),
+            (Distribution::Beckmann, Normals::All) => {
+                (by_all_normals::<T, _>(Beckmann, shape), surface::<T, _>(Beckmann, shape), Radial::Beckmann)
+            }
+            (Distribution::Berry(alpha), _) => (
+                by_all_normals::<T, _>(berry(alpha), shape),
+                surface::<T, _>(berry(alpha), shape),
+                Radial::gtr(alpha, 1.0),
+            ),
+        };
+        let scalar = if surface.bits() == 24 { 32 } else { 64 };
+        let label = format!("{distribution:?}, {normals:?} normals, {shape:?} f{scalar} at {degrees} deg");
+        let wo = Random::new(8, 24).direction(degrees);
+        let chart = Reflecting { polar: Polar { radial, inverse: shape.inverse() }, wo };
+        Self { label, brdf, surface, chart, wo }
+    }
+
+    /// wo mirrored about m, and wo·m, if it comes out above the horizon.
+    fn reflected(&self, m: [f64; 3]) -> Option<([f64; 3], f64)> {
+        let wo = self.wo;
+        let cos = wo[0] * m[0] + wo[1] * m[1] + wo[2] * m[2];
+        let wi = [0, 1, 2].map(|k| 2.0 * cos * m[k] - wo[k]);
+        (cos > 0.0 && wi[2] > 0.0).then_some((wi, cos))
+    }
+
+    /// A function of wi as a density of half vectors.
+    fn of_half_vector(&self, m: [f64; 3], f: &dyn Fn([f64; 3]) -> f64) -> f64 {
+        self.reflected(m).map_or(0.0, |(wi, cos)| 4.0 * cos * f(wi))
+    }
+
+    /// The half vector of a sampled direction.
+    fn half(&self, wi: [f64; 3]) -> [f64; 3] {
+        let h = [0, 1, 2].map(|k| wi[k] + self.wo[k]);
+        let length = (h[0] * h[0] + h[1] * h[1] + h[2] * h[2]).sqrt();
+        h.map(|c| c / length)
+    }
+
+    /// χ² of the samples of this case against a pdf; the weights are collected.
+    fn against(&self, pdf: &dyn Fn([f64; 3]) -> f64, why: &str, run: Run<'_>) -> Outcome {
+        let Run { effort, seed, weights, warp } = run;
+        let subject = Subject {
+            label: format!("{}{why}", self.label),
+            chart: &self.chart,
+            sample: &mut |u| {
+                let sample = self.brdf.sample(self.wo, warp(u));
+                weights.add(sample.map_or(0.0, |(_, weight)| weight));
+                sample.map(|(wi, _)| self.half(wi))
+            },
+            density: &|m| self.of_half_vector(m, pdf),
+            misses: true,
+            epsilon: self.surface.epsilon(),
+        };
+        test(subject, effort, &mut Random::new(seed, self.surface.bits()))
+    }
+
+    /// The part of white light that is reflected: ∫ f cos θi dwi, by quadrature over half vectors.
+    fn albedo(&self, f: &dyn Fn([f64; 3]) -> f64) -> f64 {
+        let even: Vec<f64> = (0..=16).map(|i| f64::from(i) / 16.0).collect();
+        let edges = [even.clone(), even];
+        let density = |m: [f64; 3]| self.of_half_vector(m, &|wi| f(wi) * wi[2].max(0.0));
+        let masses = Quadrature::new(&self.chart, &density, 6).grid(&edges, &|_| 1e-8);
+        let error: f64 = masses.iter().map(|m| m.error).sum();
+        assert!(error < 1e-5, "{}: the quadrature of the albedo has the error {error:.1e}", self.label);
+        masses.iter().map(|m| m.value).sum()
+    }
+}
+
+/// How to draw the samples of a case, and where their weights go.
+struct Run<'a> {
+    effort: Effort,
+    seed: u64,
+    weights: &'a mut Weights,
+    warp: fn([f64; 2]) -> [f64; 2],
+}
+
+impl<'a> Run<'a> {
+    fn new(effort: Effort, seed: u64, weights: &'a mut Weights) -> Self {
+        Self { effort, seed, weights, warp: |u| u }
+    }
+}
+
+/// Mean and variance of weights (Welford 1962).
+#[derive(Debug, Default)]
+struct Weights {
+    n: usize,
+    mean: f64,
+    squares: f64,
+}
+
+impl Weights {
+    fn add(&mut self, weight: f64) {
+        self.n += 1;
+        let difference = weight - self.mean;
+        self.mean += difference / count(self.n);
+        self.squares += difference * (weight - self.mean);
+    }
+
+    /// The two-sided p-value that the mean is `expected`: normal by the central limit theorem. The standard error
+    /// is at least 1e-6 of the mean, the rounding of f32 weights: at α = 1e-4 all weights are 1.
+    fn p_value(&self, expected: f64) -> f64 {
+        let n = count(self.n);
+        let error = (self.squares / (n * (n - 1.0))).sqrt().max(1e-6 * expected);
+        erfc((self.mean - expected).abs() / error / 2_f64.sqrt())
+    }
+}
+
+/// χ² and mean weight of every case.
+fn run(cases: &[Case], effort: Effort, [mut directions, mut furnace]: [Family; 2]) {
+    for (case, seed) in cases.iter().zip(30_000..) {
+        let mut weights = Weights::default();
+        let pdf = |wi| case.brdf.pdf(wi, case.wo);
+        directions.add_outcome(case.against(&pdf, "", Run::new(effort, seed, &mut weights)));
+        let albedo = case.albedo(&|wi| case.brdf.eval(wi, case.wo));
+        furnace.add(weights.p_value(albedo), format!("{}: {} and {albedo}", case.label, weights.mean));
+    }
+    directions.assert_accepted();
+    furnace.assert_accepted();
+}
+
+/// Widths, maps and angles for both ways of sampling.
+fn cases() -> Vec<Case> {
+    let shapes = [
+        (Shape::Isotropic(1e-4), [0.0, 60.0, 85.0]),
+        (Shape::Isotropic(0.1), [30.0, 85.0, 89.5]),
+        (Shape::Isotropic(0.9), [0.0, 60.0, 89.5]),
+        (Shape::Axes(0.2, 0.7), [30.0, 60.0, 85.0]),
+        (Shape::Matrix(0.5, 0.01, 0.6), [0.0, 60.0, 85.0]),
+        (Shape::Moved(0.3, SKEW), [30.0, 60.0, 85.0]),
+        (Shape::Moved(0.3, MIRROR), [0.0, 60.0, 89.5]),
+    ];
+    let mut cases = Vec::new();
+    for (shape, angles) in shapes {
+        for degrees in angles {
+            cases.push(Case::new::<f64>(Distribution::Ggx, Normals::Visible, shape, degrees));
+            cases.push(Case::new::<f64>(Distribution::Beckmann, Normals::Visible, shape, degrees));
+        }
+        cases.push(Case::new::<f64>(Distribution::Ggx, Normals::All, shape, angles[1]));
+        cases.push(Case::new::<f64>(Distribution::Beckmann, Normals::All, shape, angles[0]));
+        cases.push(Case::new::<f32>(Distribution::Ggx, Normals::Visible, shape.scaled(2.0), angles[0]));
+        cases.push(Case::new::<f32>(Distribution::Beckmann, Normals::Visible, shape.scaled(2.0), angles[1]));
+    }
+    for (alpha, shape) in [(0.05, Shape::Isotropic(1.0)), (0.3, Shape::Moved(0.8, SKEW))] {
+        for degrees in [0.0, 60.0] {
+            cases.push(Case::new::<f64>(Distribution::Berry(alpha), Normals::All, shape, degrees));
+        }
+    }
+    cases
+}
+
+#[test]
+fn sampled_directions_have_their_pdf_and_weights_the_albedo() {
+    run(&cases(), Effort::QUICK, [Family::new("RoughConductor::sample"), Family::new("mean weights")]);
+}
+
+#[test]
+fn wrong_pdfs_and_weights_are_rejected() {
+    let effort = Effort::QUICK;
+    let (axes, skew) = (Shape::Axes(0.2, 0.3), Shape::Moved(0.2, SKEW));
+    for distribution in [Distribution::Ggx, Distribution::Beckmann] {
+        for normals in [Normals::Visible, Normals::All] {
+            let make = |shape| Case::new::<f64>(distribution, normals, shape, 60.0);
+            let reject = |case: &Case, pdf: &dyn Fn([f64; 3]) -> f64, why: &str| {
+                let mut weights = Weights::default();
+                assert_rejected(&case.against(pdf, why, Run::new(effort, 1, &mut weights)));
+            };
+            for shape in [Shape::Isotropic(0.01), axes] {
+                let (case, wider) = (make(shape), make(shape.scaled(1.03)));
+                reject(&case, &|wi| wider.brdf.pdf(wi, case.wo), ", alpha off by 3 %");
+            }
+            let (case, swapped) = (make(axes), make(axes.swapped()));
+            reject(&case, &|wi| swapped.brdf.pdf(wi, case.wo), ", axes swapped");
+            reject(&case, &|wi| 0.97 * case.brdf.pdf(wi, case.wo), ", determinant off by 3 %");
+            let (case, transposed) = (make(skew), make(skew.transposed()));
+            reject(&case, &|wi| transposed.brdf.pdf(wi, case.wo), ", transposed map");
+            let other = if normals == Normals::All { Normals::Visible } else { Normals::All };
+            let other = Case::new::<f64>(distribution, other, skew, 60.0);
+            reject(&case, &|wi| other.brdf.pdf(wi, case.wo), ", the pdf of the other normals");
+            // The Jacobian of reflection without wo·wm.
+            reject(
+                &case,
+                &|wi| {
+                    let (h, wo) = (case.half(wi), case.wo);
+                    case.brdf.pdf(wi, wo) * (h[0] * wo[0] + h[1] * wo[1] + h[2] * wo[2])
+                },
+                ", Jacobian left out",
+            );
+            let mut weights = Weights::default();
+            let warped = Run { warp: |[a, b]| [a * a, b], ..Run::new(effort, 2, &mut weights) };
+            let pdf = |wi| case.brdf.pdf(wi, case.wo);
+            assert_rejected(&case.against(&pdf, ", u1 squared", warped));
+            wrong_albedos(&make(Shape::Isotropic(0.5)), &make(Shape::Isotropic(0.515)));
+        }
+    }
+}
+
+/// The mean weight of a case is not the albedo of a wider surface, of separable masking, or 1 % more than its own.
+fn wrong_albedos(case: &Case, wider: &Case) {
+    let mut weights = Weights::default();
+    let pdf = |wi| case.brdf.pdf(wi, case.wo);
+    let effort = Effort { samples: 400_000, ..Effort::QUICK };
+    let outcome = case.against(&pdf, "", Run::new(effort, 3, &mut weights));
+    assert!(outcome.rejection(1e-5).is_none());
+    let eval = |wi| case.brdf.eval(wi, case.wo);
+    let right = case.albedo(&eval);
+    let wrong = [
+        ("alpha off by 3 %", case.albedo(&|wi| wider.brdf.eval(wi, case.wo))),
+        ("separable masking", case.albedo(&|wi| eval(wi) * case.surface.g2_separable_over_g2(wi, case.wo))),
+        ("1 % brighter", 1.01 * right),
+    ];
+    assert!(weights.p_value(right) > 1e-5, "{}: {} and {right}", case.label, weights.mean);
+    for (why, albedo) in wrong {
+        let p = weights.p_value(albedo);
+        eprintln!(
+            "negative control {}, weights, {why}: {:.5} and {albedo:.5}, p = {p:.1e}",
+            case.label, weights.mean
+        );
+        assert!(p < 1e-5, "accepted: {}, {why}: {} and {albedo}", case.label, weights.mean);
+    }
+}
+
+/// Every wi drawn has its half vector in the chart: the chart's coordinates go back to the direction they came from.
+#[test]
+fn half_vectors_reflect_back() {
+    let case = Case::new::<f64>(Distribution::Ggx, Normals::Visible, Shape::Moved(0.3, SKEW), 60.0);
+    let mut random = Random::new(4, 53);
+    for _ in 0..1000 {
+        let u = [random.uniform(), random.uniform()];
+        let Some((wi, _)) = case.brdf.sample(case.wo, u) else { continue };
+        let (m, solid_angle) = case.chart.point(case.chart.coordinates(case.half(wi)));
+        let (back, _) = case.reflected(m).expect("above the horizon");
+        let distance = (0..3).map(|k| (back[k] - wi[k]).abs()).fold(0.0, f64::max);
+        assert!(distance < 1e-13 && solid_angle > 0.0, "{wi:?} comes back as {back:?}");
+    }
+}
+
+#[test]
+#[ignore = "long: about twenty minutes; see main.rs"]
+fn long_conductor() {
+    let families = [Family::long("long RoughConductor::sample"), Family::long("long mean weights")];
+    run(&cases(), Effort::LONG, families);
+}

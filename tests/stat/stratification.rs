@@ -1,0 +1,67 @@
+//! Samplers keep stratified points stratified.
+//!
+//! A sampler that is continuous and not folded takes evenly spread points to evenly spread points of its density.
+//! A cell's count then deviates only by what happens along its rim, in proportion to E^{1/4} or to the logarithm of
+//! the discrepancy, where random points deviate by E^{1/2}: the χ² statistic, about 1 a cell for random points, falls
+//! far below. Both sets of points begin at u = (0, 0) exactly.
+
+use microsurface::{Beckmann, Ggx, Gtr};
+
+use crate::chart::{Radial, VisibleProfile};
+use crate::chi_square::{Effort, Outcome};
+use crate::normals;
+use crate::points::{Hammersley, LowDiscrepancy, Points, Random};
+use crate::surfaces::{SKEW, Shape};
+use crate::visible;
+
+const LOG2_SAMPLES: u32 = 17;
+const EFFORT: Effort = Effort { samples: 1 << LOG2_SAMPLES, rows: 12, columns: 10 };
+
+/// χ² of even points for a degree of freedom, at most. The worst here is about a third of it.
+const LARGEST_RATIO: f64 = 0.25;
+
+fn ratio(outcome: &Outcome) -> f64 {
+    let rejection = outcome.rejection(0.0);
+    assert!(rejection.is_none(), "{}", rejection.unwrap_or_default());
+    outcome.statistic / crate::special::count(outcome.dof)
+}
+
+/// Both kinds of even points stay even; random points do not pass for even.
+fn check(label: &str, run: &dyn Fn(&mut dyn Points) -> Outcome) {
+    let net = ratio(&run(&mut Hammersley(LOG2_SAMPLES)));
+    let sequence = ratio(&run(&mut LowDiscrepancy));
+    let random = ratio(&run(&mut Random::new(5, 24)));
+    eprintln!(
+        "stratification: chi2/dof = {net:.3} (Hammersley), {sequence:.3} (R2), {random:.3} (random)  {label}"
+    );
+    assert!(net < LARGEST_RATIO && sequence < LARGEST_RATIO, "{label}: {net}, {sequence}");
+    assert!(random > 2.0 * LARGEST_RATIO, "random points pass for even ones: {label}: {random}");
+}
+
+#[test]
+fn sample_d_keeps_even_points_even() {
+    let (skew, flat) = (Shape::Moved(0.1, SKEW), Shape::Isotropic(1.0));
+    let gtr = |gamma| *Gtr::spline(0.05_f64, gamma).unwrap().profile();
+    let cases = [
+        normals::Case::new::<f64, _>("Ggx", Ggx, Radial::Ggx, skew),
+        normals::Case::new::<f32, _>("Ggx", Ggx, Radial::Ggx, Shape::Isotropic(1e-3)),
+        normals::Case::new::<f64, _>("Beckmann", Beckmann, Radial::Beckmann, skew),
+        normals::Case::new::<f64, _>("Gtr 0.3", gtr(0.3), Radial::gtr(0.05, 0.3), flat),
+        normals::Case::new::<f64, _>("Gtr 2.7", gtr(2.7), Radial::gtr(0.05, 2.7), skew),
+    ];
+    for case in &cases {
+        check(&case.label, &|points| case.outcome(EFFORT, points));
+    }
+}
+
+#[test]
+fn sample_vndf_keeps_even_points_even() {
+    for profile in [VisibleProfile::Ggx, VisibleProfile::Beckmann] {
+        for degrees in [0.0, 60.0, 89.5, 100.0] {
+            let case = visible::Case::new::<f64>(profile, Shape::Moved(0.6, SKEW), degrees, 11);
+            check(&case.label, &|points| case.outcome(EFFORT, points));
+        }
+        let case = visible::Case::new::<f32>(profile, Shape::Isotropic(0.01), 60.0, 12);
+        check(&case.label, &|points| case.outcome(EFFORT, points));
+    }
+}
