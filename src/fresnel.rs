@@ -24,7 +24,7 @@ pub trait Spectrum: Copy + core::fmt::Debug + PartialEq + Send + Sync + 'static 
     fn zip(self, other: Self, f: impl FnMut(Self::Scalar, Self::Scalar) -> Self::Scalar) -> Self;
 
     /// Every channel times a number.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     fn scaled(self, factor: Self::Scalar) -> Self {
         self.map(|channel| channel * factor)

@@ -104,26 +104,26 @@ impl<P: Copy, M: Map> Microsurface<P, M> {
 impl<P: Profile<M::Scalar>, M: Map> Ndf for Microsurface<P, M> {
     type Scalar = M::Scalar;
 
-    #[inline]
+    #[inline(always)]
     fn d(&self, wm: Vec3<Self>) -> M::Scalar {
         let m: [M::Scalar; 3] = wm.into();
         let d = self.profile.d(&self.map, m, M::Scalar::ONE);
         if m[2] < M::Scalar::ZERO { M::Scalar::ZERO } else { d }
     }
 
-    #[inline]
+    #[inline(always)]
     fn d_along(&self, h: Vec3<Self>) -> M::Scalar {
         let h: [M::Scalar; 3] = h.into();
         self.profile.d(&self.map, h, dot(h, h))
     }
 
-    #[inline]
+    #[inline(always)]
     fn p22(&self, slope: Vec2<Self>) -> M::Scalar {
         let [x, y]: [M::Scalar; 2] = slope.into();
         self.profile.d(&self.map, [-x, -y, M::Scalar::ONE], M::Scalar::ONE)
     }
 
-    #[inline]
+    #[inline(always)]
     fn sigma(&self, w: Vec3<Self>) -> M::Scalar {
         let w: [M::Scalar; 3] = w.into();
         let s2 = self.map.direction_term(w);
@@ -134,13 +134,13 @@ impl<P: Profile<M::Scalar>, M: Map> Ndf for Microsurface<P, M> {
         }
     }
 
-    #[inline]
+    #[inline(always)]
     fn sigma_above(&self, w: Vec3<Self>) -> M::Scalar {
         let w: [M::Scalar; 3] = w.into();
         self.profile.sigma_above(self.map.direction_term(w), w[2])
     }
 
-    #[inline]
+    #[inline(always)]
     fn lambda(&self, w: Vec3<Self>) -> M::Scalar {
         let w: [M::Scalar; 3] = w.into();
         let [x, y, z] = w;
@@ -150,14 +150,14 @@ impl<P: Profile<M::Scalar>, M: Map> Ndf for Microsurface<P, M> {
 }
 
 impl<P: SampleProfile<M::Scalar>, M: Map> SampleNdf for Microsurface<P, M> {
-    #[inline]
+    #[inline(always)]
     fn sample_d(&self, u: Vec2<Self>) -> Vec3<Self> {
         normalized(self.map.push_normal(self.profile.sample_d(u.into()))).into()
     }
 }
 
 impl<P: SampleVisibleProfile<M::Scalar>, M: Map> SampleVndf for Microsurface<P, M> {
-    #[inline]
+    #[inline(always)]
     fn sample_vndf(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self> {
         let w: [M::Scalar; 3] = w.into();
         let m = self.profile.sample_visible(self.map.pull_direction(w), u.into());

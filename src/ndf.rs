@@ -79,7 +79,7 @@ pub trait Ndf {
     ///
     /// # Domain
     /// w.z ≥ 0; elsewhere finite and meaningless.
-    #[inline]
+    #[inline(always)]
     fn sigma_above(&self, w: Vec3<Self>) -> Self::Scalar {
         self.sigma(w)
     }
@@ -91,7 +91,7 @@ pub trait Ndf {
     ///
     /// # Domain
     /// h.z ≥ 0 and |h|² neither under- nor overflowing.
-    #[inline]
+    #[inline(always)]
     fn d_along(&self, h: Vec3<Self>) -> Self::Scalar {
         self.d(normalized(h.into()).into())
     }
@@ -103,7 +103,7 @@ pub trait Ndf {
     ///
     /// # References
     /// Heitz 2014, Eq. 13.
-    #[inline]
+    #[inline(always)]
     fn p22(&self, slope: Vec2<Self>) -> Self::Scalar {
         let [x, y]: [Self::Scalar; 2] = slope.into();
         let wm = normalized([-x, -y, Self::Scalar::ONE]);
@@ -118,7 +118,7 @@ pub trait Ndf {
     ///
     /// # Special cases
     /// w.z ≤ 0 or w·wm ≤ 0 → 0.
-    #[inline]
+    #[inline(always)]
     fn g1(&self, w: Vec3<Self>, wm: Vec3<Self>) -> Self::Scalar {
         let v: [Self::Scalar; 3] = w.into();
         let g1 = step(dot(v, wm.into())) * (v[2] / self.sigma_above(w));
@@ -137,7 +137,7 @@ pub trait Ndf {
     ///
     /// # References
     /// Ross, Dion and Potvin 2005; Heitz 2014, Eq. 99.
-    #[inline]
+    #[inline(always)]
     fn g2(&self, wi: Vec3<Self>, wo: Vec3<Self>, wm: Vec3<Self>) -> Self::Scalar {
         let (i, o, m): ([Self::Scalar; 3], [Self::Scalar; 3], _) = (wi.into(), wo.into(), wm.into());
         let (zi, zo) = (i[2], o[2]);
@@ -148,7 +148,7 @@ pub trait Ndf {
 
     /// Separable masking and shadowing G1(wi, wm) G1(wo, wm): darker than [`g2`](Self::g2), which it bounds from
     /// below.
-    #[inline]
+    #[inline(always)]
     fn g2_separable(&self, wi: Vec3<Self>, wo: Vec3<Self>, wm: Vec3<Self>) -> Self::Scalar {
         self.g1(wi, wm) * self.g1(wo, wm)
     }
@@ -163,7 +163,7 @@ pub trait Ndf {
     ///
     /// # References
     /// Heitz 2014, Eq. 16.
-    #[inline]
+    #[inline(always)]
     fn vndf(&self, w: Vec3<Self>, wm: Vec3<Self>) -> Self::Scalar {
         let sigma = self.sigma(w);
         let density = positive_part(dot(w.into(), wm.into())) * self.d(wm) / sigma;
@@ -183,7 +183,7 @@ pub trait SampleNdf: Ndf {
     fn sample_d(&self, u: Vec2<Self>) -> Vec3<Self>;
 
     /// The density of [`sample_d`](Self::sample_d), D(wm) wm.z, 1/sr.
-    #[inline]
+    #[inline(always)]
     fn pdf_d(&self, wm: Vec3<Self>) -> Self::Scalar {
         let m: [Self::Scalar; 3] = wm.into();
         self.d(wm) * positive_part(m[2])

@@ -105,7 +105,7 @@ where
     F::Output: Spectrum<Scalar = N::Scalar>,
 {
     /// f(wi, wo), 1/sr, without the cosine; symmetric in wi and wo.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn eval(&self, wi: Vec3<N>, wo: Vec3<N>) -> F::Output {
         let half = Half::<N::Scalar>::new(wi.into(), wo.into());
@@ -133,7 +133,7 @@ where
     /// The density with which [`sample`](Self::sample) draws `wi`, 1/sr.
     ///
     /// Its integral over the upper hemisphere is below 1 by the share of normals that reflect below the horizon.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn pdf(&self, wi: Vec3<N>, wo: Vec3<N>) -> N::Scalar {
         let half = Half::<N::Scalar>::new(wi.into(), wo.into());
@@ -150,7 +150,7 @@ where
     /// # Returns
     /// `None` where nothing is reflected: `wo` at or below the horizon, or a normal that reflects below it, whose
     /// energy further bounces would carry.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn sample(&self, wo: Vec3<N>, u: Vec2<N>) -> Option<Sample<N::Scalar, F::Output>> {
         let o: [N::Scalar; 3] = wo.into();

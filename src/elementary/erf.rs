@@ -32,7 +32,7 @@ use crate::real::Real;
 /// # References
 /// NIST Digital Library of Mathematical Functions, §7.2.
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn erf<T: Real>(x: T) -> T {
     let end = T::lit(T::ERF_ONE);
     let a = x.abs();
@@ -70,7 +70,7 @@ pub fn erf<T: Real>(x: T) -> T {
 /// # References
 /// NIST Digital Library of Mathematical Functions, §7.2.
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn erfc<T: Real>(x: T) -> T {
     let y = exp_neg_square(x) * erfcx_of_positive(x.abs());
     if x < T::ZERO { T::TWO - y } else { y }

@@ -75,7 +75,7 @@ pub(crate) fn erfc_inv_wide<T: Real>(q: T::Wide) -> T::Wide {
 /// The intervals and their variables are those of M. J. Wichura, "Algorithm AS 241", Appl. Statist. 37 (1988);
 /// the logarithm in the middle that of M. Giles, "Approximating the erfinv function", GPU Computing Gems (2011).
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn erf_inv<T: Real>(p: T) -> T {
     let a = p.abs();
     let x = inverse::<T, T>(a, T::ONE - a, ln);
@@ -109,7 +109,7 @@ pub fn erf_inv<T: Real>(p: T) -> T {
 /// # References
 /// As [`erf_inv`].
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn erfc_inv<T: Real>(q: T) -> T {
     inverse_of_complement::<T, T>(q, ln)
 }

@@ -40,7 +40,7 @@ pub(super) fn erfcx_of_positive<T: Real>(x: T) -> T {
 /// # References
 /// NIST Digital Library of Mathematical Functions, §7.2 and §7.12.
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn erfcx<T: Real>(x: T) -> T {
     let y = erfcx_of_positive(x.abs());
     let (high, low) = square(x);
@@ -76,7 +76,7 @@ pub fn erfcx<T: Real>(x: T) -> T {
 /// # References
 /// NIST Digital Library of Mathematical Functions, §7.18 (iⁿerfc, n = 1).
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn ierfcx<T: Real>(x: T) -> T {
     let far = x > T::lit(T::FAR);
     // scaled so that the square overflows no earlier than the result vanishes

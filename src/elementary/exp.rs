@@ -63,7 +63,7 @@ pub(super) fn exp_of_sum<T: Real>(x: T, tail: T) -> T {
 /// assert_eq!(exp(-1e4_f64), 0.0);
 /// ```
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn exp<T: Real>(x: T) -> T {
     exp_of_sum(x, T::ZERO)
 }
@@ -92,7 +92,7 @@ pub fn exp<T: Real>(x: T) -> T {
 /// assert!((f64::from(y) / 1.6330970697166730e-35 - 1.0).abs() < 1e-7);
 /// ```
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn exp_wide<T: Real>(x: T::Wide) -> T {
     let x = within_range(x);
     let n = round(x * T::Wide::lit(core::f64::consts::LOG2_E));
@@ -123,7 +123,7 @@ pub fn exp_wide<T: Real>(x: T::Wide) -> T {
 /// assert!((exp_m1(1.0_f64) - (core::f64::consts::E - 1.0)).abs() < 5e-16);
 /// ```
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn exp_m1<T: Real>(x: T) -> T {
     // below, the result is -1 to rounding
     let bottom = T::lit(-64.0);
@@ -171,7 +171,7 @@ pub fn exp_m1<T: Real>(x: T) -> T {
 /// # References
 /// W. J. Cody, "Rational Chebyshev approximations for the error function", Math. Comp. 23 (1969), for the split.
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn exp_neg_square<T: Real>(x: T) -> T {
     let (square, tail) = square(x);
     exp_of_sum(-square, -tail)

@@ -63,7 +63,7 @@ fn ln_special<T: Real>(x: T, y: T) -> T {
 /// # References
 /// The arrangement of the terms is that of fdlibm's `e_log.c` (Sun Microsystems 1993).
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn ln<T: Real>(x: T) -> T {
     let (f, k) = split(x);
     ln_special(x, ln_of_parts(f, k, T::LN))
@@ -92,7 +92,7 @@ pub fn ln<T: Real>(x: T) -> T {
 /// assert!((ln_wide::<f32>(2.0) - core::f64::consts::LN_2).abs() < 1e-11);
 /// ```
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn ln_wide<T: Real>(x: T::Wide) -> T::Wide {
     let (f, k) = split(x);
     ln_special(x, ln_of_parts(f, k, T::LN_WIDE))
@@ -121,7 +121,7 @@ pub fn ln_wide<T: Real>(x: T::Wide) -> T::Wide {
 /// assert!((ln_1p(1.0_f64) - core::f64::consts::LN_2).abs() < 2e-16);
 /// ```
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn ln_1p<T: Real>(x: T) -> T {
     let u = T::ONE + x;
     let (_, k) = u.split_exponent();
@@ -163,7 +163,7 @@ pub fn ln_1p<T: Real>(x: T) -> T {
 /// The sums follow the outline of fdlibm's `e_pow.c` (Sun Microsystems 1993); products are split as in
 /// T. J. Dekker, "A floating-point technique for extending the available precision", Numer. Math. 18 (1971).
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn pow_wide<T: Real>(x: T::Wide, g: T) -> T {
     let y = if T::WIDENS { exp_wide(g.widen() * ln_wide::<T>(x)) } else { T::narrow(pow(x, g.widen())) };
     // 0⁰ = ∞⁰ = 1

@@ -29,7 +29,7 @@ use crate::real::Real;
 /// assert!((s - 0.5).abs() < 2e-16 && (c - 0.75_f64.sqrt()).abs() < 2e-16);
 /// ```
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn sin_cos_turns<T: Real>(u: T) -> (T, T) {
     let a = u.abs();
     let magic = T::lit(T::ROUND_POSITIVE);

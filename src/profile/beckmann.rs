@@ -111,7 +111,7 @@ impl<M: Map> Microsurface<Beckmann, M> {
     ///
     /// # Accuracy
     /// Relative error 4.6 % for a ∈ [0.1, 1], up to 91 % in [1, 1.5] and 100 % above 1.6.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn lambda_walter2007(&self, w: Vec3<Self>) -> M::Scalar {
         let lit = M::Scalar::lit;
@@ -131,7 +131,7 @@ impl<M: Map> Microsurface<Beckmann, M> {
     ///
     /// # References
     /// Walter, Marschner, Li and Torrance 2007, Eq. 27 (after Schlick).
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn g1_walter2007(&self, w: Vec3<Self>) -> M::Scalar {
         let lit = M::Scalar::lit;

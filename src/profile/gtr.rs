@@ -212,7 +212,7 @@ impl<T: Real> Density<T> {
     ///
     /// # Special cases
     /// wm.z < 0 → 0.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn d(&self, wm: T::Vec3) -> T {
         let m: [T; 3] = wm.into();

@@ -290,7 +290,7 @@ impl<W: Real> View<W> {
 ///
 /// See the tests: as a difference of u, f64 2e-15 and f32 3e-8, half the step of u below 1; monotone in u for every f32, and for
 /// f64 at steps of 2⁻⁴⁴.
-#[inline]
+#[inline(always)]
 pub(crate) fn visible_slope<T: Real>(nu: T::Wide, u: T) -> T::Wide {
     let view = View::new(nu, fit::<T>());
     let (xi, _) = solve(&view, u);

@@ -73,7 +73,7 @@ impl<T: Real> Spline<T> {
     ///
     /// # Returns
     /// May leave [0, 1]: see the [module](self).
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn g1(&self, s2: T, z: T) -> T {
         z * self.reciprocal_sigma(s2, z)
