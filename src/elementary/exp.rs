@@ -12,12 +12,15 @@ pub(super) fn round<T: Real>(x: T) -> T {
     (x + magic) - magic
 }
 
-/// x confined to where e^x is neither 0 nor overflows; NaN stays NaN.
+/// x confined to where e^x does not overflow, 0 where e^x is 0, and whether it is; NaN stays NaN.
+///
+/// A result that vanishes is selected at the end: as a product it would take a microcode assist.
 #[inline(always)]
-fn within_range<T: Real>(x: T) -> T {
-    let (top, bottom) = (T::lit(T::EXP_RANGE.0), T::lit(T::EXP_RANGE.1));
+fn within_range<X: Real, T: Real>(x: X) -> (X, bool) {
+    let (top, bottom) = (X::lit(X::EXP_RANGE.0), X::lit(T::EXP_RANGE.1));
+    let vanishes = x < bottom;
     let x = if x > top { top } else { x };
-    if x < bottom { bottom } else { x }
+    (if vanishes { X::ZERO } else { x }, vanishes)
 }
 
 /// y·2ⁿ for integers n of twice the range of exponents, rounded once.
@@ -30,13 +33,13 @@ fn scale<T: Real>(y: T, n: T) -> T {
 /// e^(x + tail), |tail| below 1.
 #[inline(always)]
 pub(super) fn exp_of_sum<T: Real>(x: T, tail: T) -> T {
-    let x = within_range(x);
+    let (x, vanishes) = within_range::<T, T>(x);
     let n = round((x + tail) * T::lit(core::f64::consts::LOG2_E));
     let low = tail - n * T::lit(T::LN_2.1);
     let high = x - n * T::lit(T::LN_2.0);
     let r = high + low;
     let y = T::ONE + (high + (low + r * r * polynomial(r, T::EXP)));
-    scale(y, n)
+    if vanishes { T::ZERO } else { scale(y, n) }
 }
 
 /// eˣ, over the whole range.
@@ -94,12 +97,12 @@ pub fn exp<T: Real>(x: T) -> T {
 #[must_use]
 #[inline(always)]
 pub fn exp_wide<T: Real>(x: T::Wide) -> T {
-    let x = within_range(x);
+    let (x, vanishes) = within_range::<T::Wide, T>(x);
     let n = round(x * T::Wide::lit(core::f64::consts::LOG2_E));
     let r = (x - n * T::Wide::lit(T::Wide::LN_2.0)) - n * T::Wide::lit(T::Wide::LN_2.1);
     let s = T::narrow(r);
     let y = T::Wide::ONE + (r + (s * s * polynomial(s, T::EXP)).widen());
-    T::narrow(scale(y, n))
+    if vanishes { T::ZERO } else { T::narrow(scale(y, n)) }
 }
 
 /// eˣ − 1, accurate relative to itself also near 0.
