@@ -142,7 +142,8 @@ pub trait Ndf {
         let (i, o, m): ([Self::Scalar; 3], [Self::Scalar; 3], _) = (wi.into(), wo.into(), wm.into());
         let (zi, zo) = (i[2], o[2]);
         let visible = step(dot(i, m)) * step(dot(o, m));
-        let g2 = zi * zo / (zo * self.sigma_above(wi) + zi * self.sigma_above(wo) - zi * zo);
+        let g2 = cosine_scale::<Self::Scalar>() * zi * zo
+            / masked_cosines(zi, zo, self.sigma_above(wi), self.sigma_above(wo));
         if zi <= Self::Scalar::ZERO || zo <= Self::Scalar::ZERO { Self::Scalar::ZERO } else { visible * g2 }
     }
 
@@ -169,6 +170,20 @@ pub trait Ndf {
         let density = positive_part(dot(w.into(), wm.into())) * self.d(wm) / sigma;
         if sigma <= Self::Scalar::ZERO { Self::Scalar::ZERO } else { density }
     }
+}
+
+/// 2⁴⁰ (f32) or 2²⁷⁰ (f64).
+#[inline(always)]
+pub(crate) fn cosine_scale<T: Real>() -> T {
+    T::lit(if T::EPSILON.to_f64() > 1e-10 { 1099511627776.0 } else { 1.8971375900641885e81 })
+}
+
+/// zi zo/G2 = zo σ(wi) + zi σ(wo) − zi zo, times [`cosine_scale`]: above 0 for every positive cosine, where the
+/// products themselves may be too small to be numbers.
+#[inline(always)]
+pub(crate) fn masked_cosines<T: Real>(zi: T, zo: T, sigma_i: T, sigma_o: T) -> T {
+    let (scaled_i, scaled_o) = (cosine_scale::<T>() * zi, cosine_scale::<T>() * zo);
+    scaled_o * sigma_i + scaled_i * sigma_o - scaled_i * zo
 }
 
 /// Sampling of all normals, with density D(wm) wm.z.

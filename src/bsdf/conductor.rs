@@ -5,7 +5,7 @@ use crate::bsdf::Sample;
 use crate::bsdf::sampling::{NormalSampling, VisibleNormals};
 use crate::frame::reflected;
 use crate::fresnel::{Fresnel, Spectrum};
-use crate::ndf::{Ndf, Vec2, Vec3};
+use crate::ndf::{Ndf, Vec2, Vec3, cosine_scale, masked_cosines};
 use crate::vector::dot;
 
 /// Single reflection off a rough surface of any distribution and Fresnel term, with height-correlated masking.
@@ -110,16 +110,22 @@ where
     pub fn eval(&self, wi: Vec3<N>, wo: Vec3<N>) -> F::Output {
         let half = Half::<N::Scalar>::new(wi.into(), wo.into());
         let d = self.surface.d_along(half.h.into());
-        let f = N::Scalar::lit(0.25) * d / self.masked_cosines(wi, wo);
+        let f = Self::quarter() * d / self.masked_cosines(wi, wo);
         self.fresnel.reflectance(N::Scalar::HALF * half.length).scaled(half.select(f))
     }
 
-    /// zi zo/G2 = zo σ(wi) + zi σ(wo) − zi zo.
+    /// ¼ in the scale of [`masked_cosines`](Self::masked_cosines).
+    #[inline(always)]
+    fn quarter() -> N::Scalar {
+        N::Scalar::lit(0.25) * cosine_scale::<N::Scalar>()
+    }
+
+    /// zi zo/G2 = zo σ(wi) + zi σ(wo) − zi zo, scaled.
     #[inline(always)]
     fn masked_cosines(&self, wi: Vec3<N>, wo: Vec3<N>) -> N::Scalar {
         let [_, _, zi]: [N::Scalar; 3] = wi.into();
         let [_, _, zo]: [N::Scalar; 3] = wo.into();
-        zo * self.surface.sigma_above(wi) + zi * self.surface.sigma_above(wo) - zi * zo
+        masked_cosines(zi, zo, self.surface.sigma_above(wi), self.surface.sigma_above(wo))
     }
 }
 
@@ -164,7 +170,7 @@ where
             return None;
         }
         let density = self.sampling.density_over_d(self.surface.sigma_above(wo), wo_wm, m[2]);
-        let weight = N::Scalar::lit(0.25) * i[2] / (density * self.masked_cosines(wi, wo));
+        let weight = Self::quarter() * i[2] / (density * self.masked_cosines(wi, wo));
         Some(Sample {
             wi,
             weight: self.fresnel.reflectance(wo_wm).scaled(weight),

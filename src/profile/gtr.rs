@@ -112,7 +112,7 @@ impl<T: Real, K: Masking<T>> Profile<T> for Gtr<T, K> {
     #[inline(always)]
     fn d<M: Map<Scalar = T>>(&self, map: &M, m: [T; 3], length2: T) -> T {
         let (q, z2) = map.normal_terms_wide(m);
-        map.scale() * self.density.homogeneous(q, z2, length2)
+        self.density.homogeneous(map.scale(), q, z2, length2)
     }
 
     #[inline(always)]
@@ -217,20 +217,21 @@ impl<T: Real> Density<T> {
     pub fn d(&self, wm: T::Vec3) -> T {
         let m: [T; 3] = wm.into();
         let [x, y, z] = m.map(T::widen);
-        let d = T::FRAC_1_PI * self.homogeneous(x * x + y * y, z * z, T::ONE);
+        let d = self.homogeneous(T::FRAC_1_PI, x * x + y * y, z * z, T::ONE);
         if m[2] < T::ZERO { T::ZERO } else { d }
     }
 
-    /// `length2`² π c (z² + q)^{γ−2}/(q + α²z²)^γ.
+    /// `scale` `length2`² π c (z² + q)^{γ−2}/(q + α²z²)^γ.
     #[inline(always)]
-    fn homogeneous(&self, q: T::Wide, z2: T::Wide, length2: T) -> T {
+    fn homogeneous(&self, scale: T, q: T::Wide, z2: T::Wide, length2: T) -> T {
         let alpha = self.alpha.widen();
         let alpha2 = alpha * alpha;
         let sum = q + z2;
         let falloff = (q + alpha2 * z2) / (alpha2 * sum);
         // The root of the power: at α = 1e-6 and γ = 4 the power itself underflows in f32 where D does not.
         let root = length2 / T::narrow(sum) * pow_wide::<T>(falloff, -(T::HALF * self.gamma));
-        self.peak * root * root
+        // The scale of a narrow map first: root² alone may overflow where D does not.
+        (scale * self.peak) * root * root
     }
 
     /// A normal of density D cos θ, of any length: sin²θ by inversion from u.x, azimuth 2π u.y.
