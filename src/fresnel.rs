@@ -195,6 +195,12 @@ fn check<S: Spectrum>(
     result
 }
 
+/// min(f, 1); NaN stays NaN.
+#[inline(always)]
+fn at_most_one<T: Real>(f: T) -> T {
+    if f > T::ONE { T::ONE } else { f }
+}
+
 impl<S: Spectrum> Fresnel for Dielectric<S> {
     type Output = S;
     #[inline(always)]
@@ -218,7 +224,7 @@ impl<S: Spectrum> Fresnel for Dielectric<S> {
             } else if transparent {
                 zero
             } else {
-                f.min(one)
+                at_most_one(f)
             }
         })
     }
@@ -288,7 +294,7 @@ impl<S: Spectrum> Fresnel for Conductor<S> {
             // ε − sin² vanishes only at k = 0 and the critical angle, where all is reflected unless there is no
             // surface.
             let critical = if n == one { zero } else { one };
-            if a2 + b2 < S::Scalar::MIN_POSITIVE { critical } else { f.min(one) }
+            if a2 + b2 < S::Scalar::MIN_POSITIVE { critical } else { at_most_one(f) }
         })
     }
 }

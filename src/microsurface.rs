@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::map::{Linear, Map, moved};
 use crate::ndf::{Ndf, SampleNdf, SampleVndf, Vec2, Vec3};
 use crate::profile::{Profile, SampleProfile, SampleVisibleProfile};
-use crate::vector::{dot, normalized, positive_part};
+use crate::vector::{dot, normalized};
 
 /// A microsurface: the isotropic slope profile `P` seen through the linear map `M` of the tangent plane.
 ///
@@ -168,16 +168,27 @@ impl<P: SampleVisibleProfile<M::Scalar>, M: Map> SampleVndf for Microsurface<P, 
 /// The direction of m, of any length, turned towards w where rounding had turned it away.
 ///
 /// The facets at the edge of visibility have w·m = 0; a sample there may come out behind by the rounding of the
-/// sum, and would have no density. It is moved along w to w·m of 8ε of the terms of the sum, and at least 2⁻⁶⁴ (f32)
+/// sum, and would have no density. It is moved towards w to w·m of 8ε of the terms of the sum, and at least 2⁻⁶⁴ (f32)
 /// or 2⁻⁵¹² (f64) of the length where all terms vanish. The move is a rounding itself but at the very edge, where m
 /// is the difference of two equal vectors; hence it comes before the normalisation.
 #[inline(always)]
 fn turned_into_view<T: Real>(w: [T; 3], m: [T; 3]) -> [T; 3] {
+    // From below, the difference may be so short that its square is no number.
+    let largest = m[0].abs().max(m[1].abs()).max(m[2].abs());
+    let (short, longer, least) = if T::WIDENS {
+        (9.313225746154785e-10, 1073741824.0, 5.421010862427522e-20) // 2⁻³⁰, 2³⁰, 2⁻⁶⁴
+    } else {
+        (6.223015277861142e-61, 1.6069380442589903e60, 7.458340731200207e-155) // 2⁻²⁰⁰, 2²⁰⁰, 2⁻⁵¹²
+    };
+    let scale = if largest < T::lit(short) { T::lit(longer) } else { T::ONE };
+    let m = m.map(|c| c * scale);
     let terms = [w[0] * m[0], w[1] * m[1], w[2] * m[2]];
-    let least = T::lit(if T::WIDENS { 5.421010862427522e-20 } else { 7.458340731200207e-155 });
+    let least = T::lit(least);
     let margin = T::lit(8.0) * T::EPSILON * (terms[0].abs() + terms[1].abs() + terms[2].abs())
         + least * (m[0].abs() + m[1].abs() + m[2].abs());
     let push = (margin - (terms[0] + terms[1] + terms[2])).max(T::ZERO);
-    // From below, the move must not take the normal of a vertical facet below the horizon.
-    normalized([m[0] + push * w[0], m[1] + push * w[1], positive_part(m[2] + push * w[2])])
+    // Along w, or along its horizontal part from below, so that no facet comes to look down.
+    let towards = [w[0], w[1], w[2].max(T::ZERO)];
+    let push = push / dot(towards, towards);
+    normalized([m[0] + push * towards[0], m[1] + push * towards[1], m[2] + push * towards[2]])
 }

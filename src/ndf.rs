@@ -175,7 +175,7 @@ pub trait Ndf {
 /// 2⁴⁰ (f32) or 2²⁷⁰ (f64).
 #[inline(always)]
 pub(crate) fn cosine_scale<T: Real>() -> T {
-    T::lit(if T::EPSILON.to_f64() > 1e-10 { 1099511627776.0 } else { 1.8971375900641885e81 })
+    T::lit(if T::WIDENS { 1099511627776.0 } else { 1.8971375900641885e81 })
 }
 
 /// zi zo/G2 = zo σ(wi) + zi σ(wo) − zi zo, times [`cosine_scale`]: above 0 for every positive cosine, where the

@@ -84,7 +84,9 @@ impl<T: Real, K> Gtr<T, K> {
 
 impl<T: Real, K: Masking<T>> Gtr<T, K> {
     fn new(alpha: T, gamma: T) -> Result<Self, Error> {
-        Ok(Self { density: Density::new(alpha, gamma)?, masking: K::new(alpha, gamma)? })
+        // The mask first: its range of γ is the narrower, and the one an error should name.
+        let masking = K::new(checked(alpha)?, gamma)?;
+        Ok(Self { density: Density::new(alpha, gamma)?, masking })
     }
 
     /// The profile under the identity.
