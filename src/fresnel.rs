@@ -92,6 +92,8 @@ pub trait Fresnel {
 pub type Scalar<F> = <<F as Fresnel>::Output as Spectrum>::Scalar;
 
 /// A facet that reflects everything: for furnace tests and mirrors without colour.
+///
+/// The output cannot be inferred from an argument: `Perfect::<f32>::new()`, `Perfect::<Vec3>::new()`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Perfect<S>(core::marker::PhantomData<S>);

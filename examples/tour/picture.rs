@@ -3,7 +3,6 @@
 use microsurface::bsdf::{AllNormals, RoughConductor, VisibleNormals};
 use microsurface::fresnel::Perfect;
 use microsurface::glam::{Mat2, Vec3};
-use microsurface::profile::gtr::closed::Closed;
 use microsurface::roughness::RoughnessMatrix;
 use microsurface::{Beckmann, Error, Ggx, Gtr, Ndf, SampleNdf, SampleVndf};
 
@@ -61,11 +60,11 @@ pub(crate) fn tails() -> Result<Picture, Error> {
         let gtr = |gamma: &str| format!("GTR gamma={gamma}, alpha={alpha}");
         Ok(vec![
             all(gtr("0.5 (spline)"), Gtr::spline(alpha, 0.5)?, metal)?,
-            all(gtr("1"), Gtr::<_, Closed<_, 1>>::closed(alpha)?, metal)?,
+            all(gtr("1"), Gtr::closed::<1>(alpha)?, metal)?,
             all(gtr("1.5 (spline)"), Gtr::spline(alpha, 1.5)?, metal)?,
             visible(format!("GGX, alpha={alpha}"), Ggx::isotropic(alpha)?, metal)?,
-            all(gtr("3"), Gtr::<_, Closed<_, 3>>::closed(alpha)?, metal)?,
-            all(gtr("4"), Gtr::<_, Closed<_, 4>>::closed(alpha)?, metal)?,
+            all(gtr("3"), Gtr::closed::<3>(alpha)?, metal)?,
+            all(gtr("4"), Gtr::closed::<4>(alpha)?, metal)?,
             visible(format!("Beckmann, alpha={alpha}"), Beckmann::isotropic(alpha)?, metal)?,
         ])
     };

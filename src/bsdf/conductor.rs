@@ -58,6 +58,13 @@ impl<N, F, S> RoughConductor<N, F, S> {
         RoughConductor { surface: self.surface, fresnel: self.fresnel, sampling }
     }
 
+    /// The same surface and sampling with another Fresnel term: [`Perfect`](crate::fresnel::Perfect) for a furnace.
+    #[inline]
+    #[must_use]
+    pub fn with_fresnel<G>(self, fresnel: G) -> RoughConductor<N, G, S> {
+        RoughConductor { surface: self.surface, fresnel, sampling: self.sampling }
+    }
+
     /// The microsurface.
     #[inline]
     #[must_use]

@@ -27,7 +27,7 @@ use crate::roughness::checked;
 ///
 /// | constructor | masking | for |
 /// |---|---|---|
-/// | [`Gtr::closed`] | exact | integer γ: nothing is paid for the others |
+/// | [`Gtr::closed::<G>`](Gtr::closed) | exact | integer γ: nothing is paid for the others |
 /// | [`Gtr::spline`] | the papers' interpolation | comparison with V-Ray; errors in [`spline`] |
 ///
 /// # Numerics

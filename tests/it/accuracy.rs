@@ -6,7 +6,6 @@ mod budget;
 
 use microsurface::fresnel::{Conductor, Dielectric, Fresnel, Spectrum};
 use microsurface::profile::gtr::Density;
-use microsurface::profile::gtr::closed::Closed;
 use microsurface::{Beckmann, Ggx, Gtr, Ndf, Real, glam};
 use rand::Rng;
 
@@ -66,11 +65,11 @@ fn with_surface<T: Real, R>(columns: &[&str], f: impl FnOnce(&dyn Ndf<Scalar = T
         ("beckmann", true) => f(&Beckmann::isotropic(alpha_x).unwrap()),
         ("beckmann", false) => f(&Beckmann::anisotropic(alpha_x, alpha_y).unwrap()),
         ("gtr", _) => match columns[3] {
-            "0" => f(&Gtr::<T, Closed<T, 0>>::closed(alpha_x).unwrap()),
-            "1" => f(&Gtr::<T, Closed<T, 1>>::closed(alpha_x).unwrap()),
-            "2" => f(&Gtr::<T, Closed<T, 2>>::closed(alpha_x).unwrap()),
-            "3" => f(&Gtr::<T, Closed<T, 3>>::closed(alpha_x).unwrap()),
-            "4" => f(&Gtr::<T, Closed<T, 4>>::closed(alpha_x).unwrap()),
+            "0" => f(&Gtr::closed::<0>(alpha_x).unwrap()),
+            "1" => f(&Gtr::closed::<1>(alpha_x).unwrap()),
+            "2" => f(&Gtr::closed::<2>(alpha_x).unwrap()),
+            "3" => f(&Gtr::closed::<3>(alpha_x).unwrap()),
+            "4" => f(&Gtr::closed::<4>(alpha_x).unwrap()),
             gamma => panic!("no closed mask for {gamma}"),
         },
         _ => panic!("unknown distribution {}", columns[0]),
@@ -234,10 +233,7 @@ fn f32_agrees_with_f64_densely() {
                     ([s.d(narrow), s.g1(narrow, narrow)], [w.d(wide), w.g1(wide, wide)])
                 }
                 _ => {
-                    let (s, w) = (
-                        Gtr::<_, Closed<_, 1>>::closed(a).unwrap(),
-                        Gtr::<_, Closed<_, 1>>::closed(aw).unwrap(),
-                    );
+                    let (s, w) = (Gtr::closed::<1>(a).unwrap(), Gtr::closed::<1>(aw).unwrap());
                     let (d, dw) =
                         (Density::new(a, gamma).unwrap(), Density::new(aw, f64::from(gamma)).unwrap());
                     ([d.d(narrow), s.g1(narrow, narrow)], [dw.d(wide), w.g1(wide, wide)])

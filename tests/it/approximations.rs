@@ -2,7 +2,6 @@
 //! Walter's Beckmann mask, and the spline mask of GTR.
 
 use microsurface::profile::gtr::Density;
-use microsurface::profile::gtr::closed::Closed;
 use microsurface::profile::gtr::spline::Spline;
 use microsurface::{Beckmann, Gtr, Isotropic, Microsurface, Ndf, Real, glam::DVec3};
 
@@ -178,11 +177,11 @@ fn masks_meet_at_integer_gamma_and_at_alpha_one() {
         let w = direction(mu);
         for alpha in [1e-3, 0.2, 0.9] {
             let closed = [
-                Gtr::<_, Closed<_, 0>>::closed(alpha).unwrap().lambda(w),
-                Gtr::<_, Closed<_, 1>>::closed(alpha).unwrap().lambda(w),
-                Gtr::<_, Closed<_, 2>>::closed(alpha).unwrap().lambda(w),
-                Gtr::<_, Closed<_, 3>>::closed(alpha).unwrap().lambda(w),
-                Gtr::<_, Closed<_, 4>>::closed(alpha).unwrap().lambda(w),
+                Gtr::closed::<0>(alpha).unwrap().lambda(w),
+                Gtr::closed::<1>(alpha).unwrap().lambda(w),
+                Gtr::closed::<2>(alpha).unwrap().lambda(w),
+                Gtr::closed::<3>(alpha).unwrap().lambda(w),
+                Gtr::closed::<4>(alpha).unwrap().lambda(w),
             ];
             for (gamma, lambda) in (0_u8..).zip(closed) {
                 let gamma = f64::from(gamma);
@@ -196,9 +195,9 @@ fn masks_meet_at_integer_gamma_and_at_alpha_one() {
             }
         }
         // α = 1: every γ is the same distribution, γ = 0.
-        let limit = Gtr::<_, Closed<_, 0>>::closed(1.0).unwrap().lambda(w);
-        let one = Gtr::<_, Closed<_, 1>>::closed(1.0).unwrap().lambda(w);
-        let four = Gtr::<_, Closed<_, 4>>::closed(1.0).unwrap().lambda(w);
+        let limit = Gtr::closed::<0>(1.0).unwrap().lambda(w);
+        let one = Gtr::closed::<1>(1.0).unwrap().lambda(w);
+        let four = Gtr::closed::<4>(1.0).unwrap().lambda(w);
         assert!((one / limit - 1.0).abs() < 1e-13 && (four / limit - 1.0).abs() < 1e-13);
         assert!((density(1.0, 7.3, 0.5) * f64::PI - 1.0).abs() < 1e-14);
     }

@@ -5,7 +5,6 @@
 //! reflect below the horizon have no density; the samples that are none belong to them and make a cell of their own,
 //! whose expectation is what the integral of the pdf lacks to 1.
 
-use microsurface::profile::gtr::closed::Closed;
 use microsurface::{Beckmann, Ggx, Gtr, Real};
 
 use crate::chart::{Chart, Polar, Radial, Reflecting};
@@ -46,7 +45,7 @@ impl Case {
     where
         T: Real + microsurface::fresnel::Spectrum<Scalar = T>,
     {
-        let berry = |alpha: f64| *Gtr::<T, Closed<T, 1>>::closed(T::lit(alpha)).unwrap().profile();
+        let berry = |alpha: f64| *Gtr::closed::<1>(T::lit(alpha)).unwrap().profile();
         let (brdf, surface, radial) = match (distribution, normals) {
             (Distribution::Ggx, Normals::Visible) => {
                 (by_visible_normals::<T, _>(Ggx, shape), surface::<T, _>(Ggx, shape), Radial::Ggx)

@@ -1,7 +1,6 @@
 //! All normals: `sample_d` against `pdf_d`.
 
 use microsurface::profile::SampleProfile;
-use microsurface::profile::gtr::closed::Closed;
 use microsurface::{Beckmann, Ggx, Gtr, Real};
 
 use crate::chart::{Chart, Polar, Radial};
@@ -64,7 +63,7 @@ fn spline<T: Real>(alpha: f64, gamma: f64, shape: Shape) -> Case {
 }
 
 fn closed<T: Real, const G: u8>(alpha: f64, shape: Shape) -> Case {
-    let profile = *Gtr::<T, Closed<T, G>>::closed(T::lit(alpha)).unwrap().profile();
+    let profile = *Gtr::closed::<G>(T::lit(alpha)).unwrap().profile();
     let name = format!("Gtr closed {G} alpha {alpha}");
     Case::new::<T, _>(&name, profile, Radial::gtr(alpha, f64::from(G)), shape)
 }

@@ -88,26 +88,27 @@ impl<T: Real, const G: u8> Masking<T> for Closed<T, G> {
     }
 }
 
-impl<T: Real, const G: u8> Gtr<T, Closed<T, G>> {
+impl<T: Real> Gtr<T, ()> {
     /// GTR at the integer γ = `G` ∈ {0, 1, 2, 3, 4} with its exact mask.
     ///
-    /// `Gtr::<_, Closed<_, 1>>::closed(alpha)` is the Berry distribution. Another `G` does not compile.
+    /// `Gtr::closed::<1>(alpha)` is the Berry distribution. Another `G` does not compile.
     ///
     /// # Errors
     /// [`Error::Alpha`] or [`Error::AlphaAboveOne`] unless 0 < α ≤ 1.
     ///
     /// # Example
     /// ```
-    /// use microsurface::{Gtr, Ndf, glam::DVec3, profile::gtr::closed::Closed};
-    /// let surface = Gtr::<_, Closed<_, 1>>::closed(0.05_f64)?;
+    /// use microsurface::{Gtr, Ndf, glam::DVec3};
+    /// let surface = Gtr::closed::<1>(0.05_f64)?;
     /// let (s, c) = 80_f64.to_radians().sin_cos();
     /// assert!((surface.lambda(DVec3::new(s, 0.0, c)) / 0.587697936515194 - 1.0).abs() < 1e-13);
     /// # Ok::<(), microsurface::Error>(())
     /// ```
     /// ```compile_fail
-    /// let unknown = microsurface::Gtr::<_, microsurface::profile::gtr::closed::Closed<_, 5>>::closed(0.05_f64);
+    /// let unknown = microsurface::Gtr::closed::<5>(0.05_f64);
     /// ```
-    pub fn closed(alpha: T) -> Result<Microsurface<Self, Isotropic<T>>, Error> {
-        Self::surface(alpha, T::lit(f64::from(G)))
+    #[expect(clippy::type_complexity, reason = "the type names the distribution, its masking and its map")]
+    pub fn closed<const G: u8>(alpha: T) -> Result<Microsurface<Gtr<T, Closed<T, G>>, Isotropic<T>>, Error> {
+        Gtr::surface(alpha, T::lit(f64::from(G)))
     }
 }
