@@ -8,7 +8,7 @@ Renders spheres of many microsurfaces and checks their numbers.
 Usage: cargo run --release --example tour -- [OPTIONS]
 
   --quick          small pictures of few samples, for continuous integration
-  --width N        width of the pictures in pixels, 16 to 8192 (640; 240 with --quick)
+  --width N        width of the pictures in pixels, 16 to 8192 (512; 240 with --quick)
   --samples N      paths per pixel, 1 to 65536; powers of two spread best (16; 4 with --quick)
   --mesh FILE.obj  one picture of this mesh instead of the spheres
   --help           this text
@@ -47,7 +47,7 @@ pub(crate) fn parse(mut args: impl Iterator<Item = String>) -> Result<Command, S
         }
     }
     let (default_width, default_samples, furnace_samples) =
-        if quick { (240, 4, 1 << 12) } else { (640, 16, 1 << 14) };
+        if quick { (240, 4, 1 << 12) } else { (512, 16, 1 << 14) };
     Ok(Command::Render(Options {
         width: width.unwrap_or(default_width),
         samples: samples.unwrap_or(default_samples),

@@ -10,7 +10,7 @@ use core::fmt::Write;
 
 use crate::chart::Chart;
 use crate::points::Points;
-use crate::quadrature::{Mass, Quadrature};
+use crate::quadrature::{Mass, Quadrature, total};
 use crate::special::{chi_square_survival, count};
 
 /// The smallest expectation for which Poisson counts are close enough to normal (Cochran 1954).
@@ -40,13 +40,15 @@ pub(crate) struct Effort {
     pub(crate) samples: usize,
     pub(crate) rows: u32,
     pub(crate) columns: u32,
+    /// How often a cell is quartered for the quadrature, at most.
+    pub(crate) depth: u32,
 }
 
 impl Effort {
     /// 16 × 10 cells, of about 800 samples each but for the tails: 3 % of α shift the GGX statistic by 7 σ.
-    pub(crate) const QUICK: Self = Self { samples: 100_000, rows: 12, columns: 10 };
+    pub(crate) const QUICK: Self = Self { samples: 100_000, rows: 12, columns: 10, depth: 3 };
     /// Resolves errors ten times smaller.
-    pub(crate) const LONG: Self = Self { samples: 10_000_000, rows: 24, columns: 24 };
+    pub(crate) const LONG: Self = Self { samples: 10_000_000, rows: 24, columns: 24, depth: 8 };
 
     /// The edges of the cells in (u₁, u₂): even, with thinner cells for both tails of the first axis.
     fn edges(self) -> [Vec<f64>; 2] {
@@ -122,9 +124,8 @@ pub(crate) fn test(mut subject: Subject<'_>, effort: Effort, points: &mut dyn Po
     let n = count(effort.samples);
     let edges = effort.edges();
     let tolerance = |mass: f64| SHARE_OF_NOISE * (mass / n).max(SMALLEST_EXPECTATION / (n * n)).sqrt();
-    let masses = Quadrature::new(subject.chart, subject.density, 7).grid(&edges, &tolerance);
-    let mass =
-        Mass { value: masses.iter().map(|m| m.value).sum(), error: masses.iter().map(|m| m.error).sum() };
+    let masses = Quadrature::new(subject.chart, subject.density, effort.depth).grid(&edges, &tolerance);
+    let mass = total(&masses);
     // The integrals are sums of numbers that carry a rounding of the density, up to some 10 ε, each.
     let allowance = mass.error + 64.0 * subject.epsilon + 1e-9;
     let excess = if subject.misses { mass.value - 1.0 } else { (mass.value - 1.0).abs() };

@@ -11,7 +11,7 @@ use crate::chart::{Chart, Polar, Radial, Reflecting};
 use crate::chi_square::{Effort, Outcome, Subject, test};
 use crate::family::{Family, assert_rejected};
 use crate::points::Random;
-use crate::quadrature::Quadrature;
+use crate::quadrature::{Mass, Quadrature, total};
 use crate::special::{count, erfc};
 use crate::surfaces::{Conductor, MIRROR, SKEW, Shape, Surface, by_all_normals, by_visible_normals, surface};
 
@@ -45,7 +45,7 @@ impl Case {
     where
         T: Real + microsurface::fresnel::Spectrum<Scalar = T>,
     {
-        let berry = |alpha: f64| *Gtr::closed::<1>(T::lit(alpha)).unwrap().profile();
+        let berry = |alpha: f64| *Gtr::closed::<1>(T::lit(alpha)).expect("a width").profile();
         let (brdf, surface, radial) = match (distribution, normals) {
             (Distribution::Ggx, Normals::Visible) => {
                 (by_visible_normals::<T, _>(Ggx, shape), surface::<T, _>(Ggx, shape), Radial::Ggx)
@@ -112,15 +112,16 @@ impl Case {
         test(subject, effort, &mut Random::new(seed, self.surface.bits()))
     }
 
-    /// The part of white light that is reflected: ∫ f cos θi dwi, by quadrature over half vectors.
-    fn albedo(&self, f: &dyn Fn([f64; 3]) -> f64) -> f64 {
+    /// The part of white light that is reflected, ∫ f cos θi dwi, by quadrature over half vectors.
+    fn albedo(&self, f: &dyn Fn([f64; 3]) -> f64) -> Mass {
         let even: Vec<f64> = (0..=16).map(|i| f64::from(i) / 16.0).collect();
         let edges = [even.clone(), even];
         let density = |m: [f64; 3]| self.of_half_vector(m, &|wi| f(wi) * wi[2].max(0.0));
-        let masses = Quadrature::new(&self.chart, &density, 6).grid(&edges, &|_| 1e-8);
-        let error: f64 = masses.iter().map(|m| m.error).sum();
-        assert!(error < 1e-5, "{}: the quadrature of the albedo has the error {error:.1e}", self.label);
-        masses.iter().map(|m| m.value).sum()
+        // The directions of f32 are rounded by 6e-8: the integrand is rough by that over α.
+        let (tolerance, depth) = if self.surface.bits() == 24 { (1e-6, 2) } else { (3e-8, 8) };
+        let albedo = total(&Quadrature::new(&self.chart, &density, depth).grid(&edges, &|_| tolerance));
+        assert!(albedo.error < 3e-4, "{}: the albedo is {albedo:?}", self.label);
+        albedo
     }
 }
 
@@ -138,6 +139,9 @@ impl<'a> Run<'a> {
     }
 }
 
+/// A standard error of the mean weight below which rounding and quadrature count, and a test is none.
+const NEGLIGIBLE: f64 = 1e-5;
+
 /// Mean and variance of weights (Welford 1962).
 #[derive(Debug, Default)]
 struct Weights {
@@ -154,12 +158,16 @@ impl Weights {
         self.squares += difference * (weight - self.mean);
     }
 
-    /// The two-sided p-value that the mean is `expected`: normal by the central limit theorem. The standard error
-    /// is at least 1e-6 of the mean, the rounding of f32 weights: at α = 1e-4 all weights are 1.
-    fn p_value(&self, expected: f64) -> f64 {
+    fn standard_error(&self) -> f64 {
         let n = count(self.n);
-        let error = (self.squares / (n * (n - 1.0))).sqrt().max(1e-6 * expected);
-        erfc((self.mean - expected).abs() / error / 2_f64.sqrt())
+        (self.squares / (n * (n - 1.0))).sqrt()
+    }
+
+    /// The two-sided p-value that the mean is `expected`: normal by the central limit theorem. To the standard error
+    /// comes that of the quadrature, far below it.
+    fn p_value(&self, expected: Mass) -> f64 {
+        let error = self.standard_error().hypot(expected.error);
+        erfc((self.mean - expected.value).abs() / error / 2_f64.sqrt())
     }
 }
 
@@ -170,7 +178,13 @@ fn run(cases: &[Case], effort: Effort, [mut directions, mut furnace]: [Family; 2
         let pdf = |wi| case.brdf.pdf(wi, case.wo);
         directions.add_outcome(case.against(&pdf, "", Run::new(effort, seed, &mut weights)));
         let albedo = case.albedo(&|wi| case.brdf.eval(wi, case.wo));
-        furnace.add(weights.p_value(albedo), format!("{}: {} and {albedo}", case.label, weights.mean));
+        if weights.standard_error() < NEGLIGIBLE {
+            // Where α is small nothing is masked, and every weight is 1 to rounding.
+            let difference = (weights.mean - albedo.value).abs();
+            assert!(difference <= NEGLIGIBLE + albedo.error, "{}: {weights:?}, {albedo:?}", case.label);
+            continue;
+        }
+        furnace.add(weights.p_value(albedo), format!("{}: {:.6} and {albedo:.6?}", case.label, weights.mean));
     }
     directions.assert_accepted();
     furnace.assert_accepted();
@@ -247,7 +261,7 @@ fn wrong_pdfs_and_weights_are_rejected() {
             let warped = Run { warp: |[a, b]| [a * a, b], ..Run::new(effort, 2, &mut weights) };
             let pdf = |wi| case.brdf.pdf(wi, case.wo);
             assert_rejected(&case.against(&pdf, ", u1 squared", warped));
-            wrong_albedos(&make(Shape::Isotropic(0.5)), &make(Shape::Isotropic(0.515)));
+            wrong_albedos(&make(Shape::Isotropic(0.9)), &make(Shape::Isotropic(0.927)));
         }
     }
 }
@@ -264,16 +278,16 @@ fn wrong_albedos(case: &Case, wider: &Case) {
     let wrong = [
         ("alpha off by 3 %", case.albedo(&|wi| wider.brdf.eval(wi, case.wo))),
         ("separable masking", case.albedo(&|wi| eval(wi) * case.surface.g2_separable_over_g2(wi, case.wo))),
-        ("1 % brighter", 1.01 * right),
+        ("1 % brighter", Mass { value: 1.01 * right.value, ..right }),
     ];
-    assert!(weights.p_value(right) > 1e-5, "{}: {} and {right}", case.label, weights.mean);
+    assert!(weights.p_value(right) > 1e-5, "{}: {} and {right:?}", case.label, weights.mean);
     for (why, albedo) in wrong {
         let p = weights.p_value(albedo);
         eprintln!(
-            "negative control {}, weights, {why}: {:.5} and {albedo:.5}, p = {p:.1e}",
-            case.label, weights.mean
+            "negative control {}, weights, {why}: {:.5} and {:.5}, p = {p:.1e}",
+            case.label, weights.mean, albedo.value
         );
-        assert!(p < 1e-5, "accepted: {}, {why}: {} and {albedo}", case.label, weights.mean);
+        assert!(p < 1e-5, "accepted: {}, {why}: {} and {albedo:?}", case.label, weights.mean);
     }
 }
 

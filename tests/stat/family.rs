@@ -54,7 +54,7 @@ impl Family {
             self.outcomes.iter().filter_map(|outcome| outcome.rejection(threshold)).collect();
         let statistics_only = |label: &String| self.outcomes.iter().all(|outcome| outcome.label != *label);
         for (p, label) in &self.p_values {
-            if statistics_only(label) && !(*p >= threshold) {
+            if statistics_only(label) && (*p < threshold || p.is_nan()) {
                 failures.push(format!("{label}: p = {p:.3e} < {threshold:.3e}"));
             }
         }

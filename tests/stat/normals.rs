@@ -57,13 +57,13 @@ fn beckmann<T: Real>(shape: Shape) -> Case {
 }
 
 fn spline<T: Real>(alpha: f64, gamma: f64, shape: Shape) -> Case {
-    let profile = *Gtr::spline(T::lit(alpha), T::lit(gamma)).unwrap().profile();
+    let profile = *Gtr::spline(T::lit(alpha), T::lit(gamma)).expect("a width and a tail").profile();
     let name = format!("Gtr alpha {alpha} gamma {gamma}");
     Case::new::<T, _>(&name, profile, Radial::gtr(alpha, gamma), shape)
 }
 
 fn closed<T: Real, const G: u8>(alpha: f64, shape: Shape) -> Case {
-    let profile = *Gtr::closed::<G>(T::lit(alpha)).unwrap().profile();
+    let profile = *Gtr::closed::<G>(T::lit(alpha)).expect("a width").profile();
     let name = format!("Gtr closed {G} alpha {alpha}");
     Case::new::<T, _>(&name, profile, Radial::gtr(alpha, f64::from(G)), shape)
 }
@@ -94,13 +94,11 @@ const PLAIN: Shape = Shape::Isotropic(1.0);
 fn gtr_cases<T: Real>(widths: &[f64]) -> Vec<Case> {
     let mut cases = Vec::new();
     let maps = shapes(0.7);
-    let mut turn = 0;
-    for gamma in [0.3, 1.0, 1.5, 2.0, 2.7, 4.0] {
+    for (turn, gamma) in [0.3, 1.0, 1.5, 2.0, 2.7, 4.0].into_iter().enumerate() {
         for &alpha in widths {
             cases.push(spline::<T>(alpha, gamma, PLAIN));
         }
         cases.push(spline::<T>(widths[turn % widths.len()], gamma, maps[turn % maps.len()]));
-        turn += 1;
     }
     for (alpha, shape) in [(0.003, PLAIN), (0.2, PLAIN), (0.05, Shape::Moved(1.0, SKEW))] {
         cases.push(closed::<T, 0>(alpha, shape));

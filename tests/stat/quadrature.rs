@@ -10,6 +10,12 @@ pub(crate) struct Mass {
     pub(crate) error: f64,
 }
 
+/// The sum of masses.
+pub(crate) fn total(masses: &[Mass]) -> Mass {
+    let sum = |f: fn(&Mass) -> f64| masses.iter().map(f).sum();
+    Mass { value: sum(|m| m.value), error: sum(|m| m.error) }
+}
+
 /// Gauss–Legendre rules of 4 and 6 points; their difference is the (pessimistic) error of the second.
 pub(crate) struct Quadrature<'a> {
     chart: &'a dyn Chart,

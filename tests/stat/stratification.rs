@@ -15,7 +15,7 @@ use crate::surfaces::{SKEW, Shape};
 use crate::visible;
 
 const LOG2_SAMPLES: u32 = 17;
-const EFFORT: Effort = Effort { samples: 1 << LOG2_SAMPLES, rows: 12, columns: 10 };
+const EFFORT: Effort = Effort { samples: 1 << LOG2_SAMPLES, rows: 12, columns: 10, depth: 5 };
 
 /// χ² of even points for a degree of freedom, at most. The worst here is about a third of it.
 const LARGEST_RATIO: f64 = 0.25;

@@ -98,8 +98,9 @@ impl Chart for Polar {
 /// The part of a [`Polar`] chart whose normals reflect `wo` above the horizon, stretched over the unit square.
 ///
 /// wi.z > 0 is |t + wo.xy/wo.z| < 1/wo.z for the slope t, a disk that contains t = 0: along every azimuth the slopes
-/// reach from 0 to its rim, and the chart's first coordinate is the share F(x)/F(x at the rim) of that way. The
-/// density of reflected directions has no discontinuity inside.
+/// reach from 0 to its rim, a share p = F(x)/F(x at the rim) of that way, and the first coordinate is 1 − √(1 − p). The
+/// density of reflected directions has no discontinuity inside, and that of visible normals, which grows with the slope
+/// like (1 − F)^{−1/2}, no singularity.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Reflecting {
     pub(crate) polar: Polar,
@@ -122,7 +123,7 @@ impl Reflecting {
 impl Chart for Reflecting {
     fn coordinates(&self, m: [f64; 3]) -> [f64; 2] {
         let [x, azimuth] = self.polar.coordinates(m);
-        [self.polar.radial.cdf(x) / self.rim(azimuth), azimuth]
+        [1.0 - (1.0 - self.polar.radial.cdf(x) / self.rim(azimuth)).max(0.0).sqrt(), azimuth]
     }
 
     fn quantile(&self, axis: usize, u: f64) -> f64 {
@@ -133,9 +134,9 @@ impl Chart for Reflecting {
         if axis == 0 { coordinate } else { self.polar.cdf(1, coordinate) }
     }
 
-    fn point(&self, [share, azimuth]: [f64; 2]) -> ([f64; 3], f64) {
-        let rim = self.rim(azimuth);
+    fn point(&self, [u, azimuth]: [f64; 2]) -> ([f64; 3], f64) {
+        let (rim, share) = (self.rim(azimuth), u * (2.0 - u));
         let (m, solid_angle) = self.polar.point([self.polar.radial.quantile(share * rim), azimuth]);
-        (m, rim * solid_angle)
+        (m, 2.0 * (1.0 - u) * rim * solid_angle)
     }
 }

@@ -1,0 +1,34 @@
+//! Nanoseconds per call, one file per question.
+//!
+//! ```text
+//! cargo bench --bench bench                        # everything, about ten minutes
+//! cargo bench --bench bench -- --quick reflection  # one question, roughly
+//! RUSTFLAGS="-C target-cpu=native" cargo bench --bench bench -- batch
+//! ```
+//!
+//! Every group holds one scalar type and compares within itself: profiles, maps, and the textbook's forms
+//! ([`textbook`]) beside the crate's. Only ratios within one run mean anything.
+//!
+//! Outside [`batch`] a *scalar call* is measured: the function is inlined into a loop over 4096 arguments held as
+//! vectors, the material changes from call to call so that nothing of it is hoisted, and every result goes through
+//! `black_box` by itself, so that no call can be merged with its neighbour into vector code. Neighbouring calls still
+//! overlap in the processor, as they do in a renderer.
+
+use criterion::{criterion_group, criterion_main};
+
+mod batch;
+mod distribution;
+mod input;
+mod mask;
+mod reflection;
+mod textbook;
+mod visible_normals;
+
+criterion_group! {
+    name = questions;
+    config = criterion::Criterion::default()
+        .warm_up_time(core::time::Duration::from_millis(300))
+        .measurement_time(core::time::Duration::from_secs(1));
+    targets = distribution::bench, mask::bench, visible_normals::bench, reflection::bench, batch::bench
+}
+criterion_main!(questions);

@@ -1,0 +1,50 @@
+//! What does a visible normal cost, and beside the samplers of the papers before?
+
+use criterion::measurement::WallTime;
+use criterion::{BenchmarkGroup, Criterion};
+use microsurface::profile::SampleVisibleProfile;
+use microsurface::{Beckmann, Ggx, Isotropic, Microsurface, Real, SampleVndf};
+
+use crate::input::{
+    CALLS, alphas, calls, directions, generator, group, materials, stretched, transformed, uniform,
+};
+use crate::textbook::{Anisotropic, Elementary, Width, beckmann, ggx};
+
+pub(crate) fn bench(criterion: &mut Criterion) {
+    scalar::<f32>(criterion);
+    scalar::<f64>(criterion);
+}
+
+fn scalar<T: Elementary>(criterion: &mut Criterion) {
+    let mut rng = generator();
+    let w = directions::<T>(CALLS, &mut rng);
+    let (u1, u2) = (uniform::<T>(CALLS, &mut rng), uniform::<T>(CALLS, &mut rng));
+    let arrays: Vec<([T; 3], [T; 2])> =
+        w.iter().zip(u1.iter().zip(&u2)).map(|(&w, (&u1, &u2))| (w.into(), [u1, u2])).collect();
+    let vectors: Vec<(T::Vec3, T::Vec2)> = arrays.iter().map(|&(w, u)| (w.into(), u.into())).collect();
+    let mut group = group::<T>(criterion, "visible_normals");
+
+    each_map::<T, _>(&mut group, "ggx", &vectors, |alpha| Ggx::isotropic(alpha).ok());
+    each_map::<T, _>(&mut group, "beckmann", &vectors, |alpha| Beckmann::isotropic(alpha).ok());
+
+    let widths: Vec<_> = alphas::<T>().into_iter().map(Width::new).collect();
+    let pairs: Vec<_> = alphas::<T>().into_iter().map(Anisotropic::new).collect();
+    calls(&mut group, ("heitz2018-ggx", "axis-aligned"), &pairs, &arrays, |&a, (w, u)| {
+        ggx::visible_normal_heitz2018(a, w, u)
+    });
+    calls(&mut group, ("jakob2014-beckmann", "isotropic"), &widths, &arrays, |&a, (w, u)| {
+        beckmann::visible_normal_jakob2014(a, w, u)
+    });
+    group.finish();
+}
+
+fn each_map<T: Real, P: SampleVisibleProfile<T>>(
+    group: &mut BenchmarkGroup<'_, WallTime>,
+    profile: &str,
+    arguments: &[(T::Vec3, T::Vec2)],
+    surface: impl Fn(T) -> Option<Microsurface<P, Isotropic<T>>>,
+) {
+    calls(group, (profile, "isotropic"), &materials(&surface), arguments, |s, (w, u)| s.sample_vndf(w, u));
+    calls(group, (profile, "axis-aligned"), &stretched(&surface), arguments, |s, (w, u)| s.sample_vndf(w, u));
+    calls(group, (profile, "general"), &transformed(&surface), arguments, |s, (w, u)| s.sample_vndf(w, u));
+}

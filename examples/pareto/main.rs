@@ -1,0 +1,48 @@
+//! Time per call against worst error: what an approximation of a mask saves, and what it costs.
+//!
+//! ```text
+//! cargo run --release --example pareto              # about half a minute
+//! cargo run --release --example pareto -- --quick   # coarse grids, rough times
+//! ```
+//!
+//! Prints one Markdown table per question and writes it, as CSV and as an SVG chart, to `target/pareto/`. Errors are
+//! absolute differences of G1 from the f64 quadrature of [`reference`], at the very numbers the function was given, so
+//! that the rounding of an argument to f32 is nobody's error. Times are medians of rounds in which the alternatives
+//! take turns; only their ratios mean anything.
+
+use core::error::Error;
+use std::io;
+
+mod beckmann;
+mod gtr;
+mod measure;
+mod reference;
+mod report;
+
+/// How finely errors are searched, and how long times are taken.
+#[derive(Clone, Copy)]
+pub(crate) struct Effort {
+    /// Directions per material.
+    pub(crate) angles: u32,
+    /// Values of γ per unit.
+    pub(crate) gammas: u32,
+    /// Rounds of timing.
+    pub(crate) rounds: usize,
+}
+
+/// The widths of every question.
+pub(crate) const ALPHAS: [f64; 7] = [0.001, 0.01, 0.05, 0.1, 0.2, 0.4, 0.8];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let quick = std::env::args().any(|argument| argument == "--quick");
+    let effort = if quick {
+        Effort { angles: 120, gammas: 4, rounds: 20 }
+    } else {
+        Effort { angles: 600, gammas: 20, rounds: 300 }
+    };
+    let mut out = io::stdout().lock();
+    reference::validate(&mut out)?;
+    beckmann::run(effort, &mut out)?;
+    gtr::run(effort, &mut out)?;
+    Ok(())
+}
