@@ -166,6 +166,11 @@ impl<S: Spectrum> Fresnel for Schlick<S> {
 /// Born and Wolf, "Principles of Optics", §1.5; the form in g of Walter 2007, Eq. 22.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "stored::Dielectric<S>"))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "S: serde::Serialize", deserialize = "S: Spectrum + serde::Deserialize<'de>"))
+)]
 pub struct Dielectric<S> {
     eta: S,
 }
@@ -251,6 +256,11 @@ impl<S: Spectrum> Fresnel for Dielectric<S> {
 /// Born and Wolf, §14.2; the real form of Lagarde 2013, "Memo on Fresnel equations".
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "stored::Conductor<S>"))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(serialize = "S: serde::Serialize", deserialize = "S: Spectrum + serde::Deserialize<'de>"))
+)]
 pub struct Conductor<S> {
     n: S,
     k: S,
@@ -298,5 +308,35 @@ impl<S: Spectrum> Fresnel for Conductor<S> {
             let critical = if n == one { zero } else { one };
             if a2 + b2 < S::Scalar::MIN_POSITIVE { critical } else { at_most_one(f) }
         })
+    }
+}
+
+#[cfg(feature = "serde")]
+mod stored {
+    //! What is deserialised: the numbers given, which are then checked again.
+    use super::Spectrum;
+    use crate::error::Error;
+
+    #[derive(serde::Deserialize)]
+    pub(super) struct Dielectric<S> {
+        eta: S,
+    }
+    impl<S: Spectrum> TryFrom<Dielectric<S>> for super::Dielectric<S> {
+        type Error = Error;
+        fn try_from(stored: Dielectric<S>) -> Result<Self, Error> {
+            Self::new(stored.eta)
+        }
+    }
+
+    #[derive(serde::Deserialize)]
+    pub(super) struct Conductor<S> {
+        n: S,
+        k: S,
+    }
+    impl<S: Spectrum> TryFrom<Conductor<S>> for super::Conductor<S> {
+        type Error = Error;
+        fn try_from(stored: Conductor<S>) -> Result<Self, Error> {
+            Self::new(stored.n, stored.k)
+        }
     }
 }

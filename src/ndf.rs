@@ -25,7 +25,8 @@ pub type Vec3<N> = <<N as Ndf>::Scalar as Real>::Vec3;
 /// | [`vndf`](Self::vndf) | density of visible normals D_w(wm) | Heitz 2014, Eq. 16 |
 ///
 /// # Special cases
-/// NaN in any argument gives NaN. Vectors that are not of unit length give meaningless numbers, never a panic.
+/// NaN in any argument gives NaN, unless another number alone makes the result 0, such as a z below the horizon.
+/// Vectors that are not of unit length give meaningless numbers, never a panic.
 ///
 /// # Example
 /// A distribution of one's own needs three functions; masking, visible-normal density and the rest follow.
@@ -90,7 +91,7 @@ pub trait Ndf {
     /// homogeneous.
     ///
     /// # Domain
-    /// h.z ≥ 0 and |h|² neither under- nor overflowing.
+    /// h.z ≥ 0, |h|² not overflowing and at least 2⁻⁶⁴ (f32) or 2⁻⁵¹² (f64).
     #[inline(always)]
     fn d_along(&self, h: Vec3<Self>) -> Self::Scalar {
         self.d(normalized(h.into()).into())
@@ -157,10 +158,11 @@ pub trait Ndf {
     /// The density D_w(wm) = max(0, w·wm) D(wm)/σ(w) of the normals visible from w, 1/sr; it integrates to 1.
     ///
     /// # Domain
-    /// w on the whole sphere except the nadir.
+    /// w on the whole sphere, as far below the horizon as σ(w) ≥ 2⁻⁶³ (f32) or 2⁻⁵¹¹ (f64): nearer to the nadir
+    /// nothing is visible to the precision of the scalar.
     ///
     /// # Special cases
-    /// Where nothing is visible (w = −z) → 0.
+    /// Where σ is 0 (w = −z) → 0.
     ///
     /// # References
     /// Heitz 2014, Eq. 16.
@@ -210,7 +212,7 @@ pub trait SampleVndf: Ndf {
     /// A micronormal visible from `w`, of density [`vndf(w, ·)`](Ndf::vndf), from two random numbers.
     ///
     /// # Domain
-    /// w on the whole sphere except the nadir; u ∈ [0, 1)², 0 included.
+    /// w as for [`vndf`](Ndf::vndf); u ∈ [0, 1)², 0 included.
     ///
     /// # Returns
     /// A unit vector with z ≥ 0 and w·wm > 0.

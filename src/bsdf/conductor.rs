@@ -14,8 +14,8 @@ use crate::vector::dot;
 /// denominator, with D of the half vector wi + wo, which is not normalised (see [`Ndf::d_along`]).
 ///
 /// # Special cases
-/// A direction at or below the horizon → f = pdf = 0 and no sample. Where |wi + wo|² < 2⁻⁹⁶ (f32) or 2⁻⁷⁶⁸ (f64),
-/// which unit vectors above the horizon reach only within 1e-14 (f32) of it and opposite to each other → 0. f itself
+/// A direction at or below the horizon → f = pdf = 0 and no sample. Where |wi + wo|² < 2⁻⁶⁴ (f32) or 2⁻⁵¹² (f64),
+/// which unit vectors above the horizon reach only within 3e-10 (f32) of it and opposite to each other → 0. f itself
 /// grows without bound as both directions approach the horizon, and overflows to ∞ once 4 zi zo/G2 is smaller
 /// than D over the largest number of the scalar; f wi.z does not.
 ///
@@ -92,8 +92,8 @@ impl<T: Real> Half<T> {
     fn new([ix, iy, iz]: [T; 3], [ox, oy, oz]: [T; 3]) -> Self {
         let h = [ix + ox, iy + oy, iz + oz];
         let length2 = dot(h, h);
-        // Squares below the smallest normal number to the power ¾ have lost the digits of their components.
-        let shortest2 = T::lit(if T::WIDENS { 1.2621774483536189e-29 } else { 6.441148769597133e-232 });
+        // α²|h|² of the smallest α must keep its digits: the root of the smallest normal number.
+        let shortest2 = T::lit(if T::WIDENS { 5.421010862427522e-20 } else { 7.458340731200207e-155 });
         let dark = iz <= T::ZERO || oz <= T::ZERO || length2 < shortest2;
         Self { h, length: length2.sqrt(), reflects: !dark }
     }

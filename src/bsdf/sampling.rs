@@ -22,7 +22,8 @@ pub struct VisibleNormals;
 
 /// All normals, of density D(wm) wm.z, visible or not: for distributions whose visible normals cannot be drawn.
 ///
-/// Weights are unbounded towards grazing angles.
+/// Weights are unbounded towards grazing angles, and so is the density of directions, D wm.z/(4 wo·wm): it overflows to
+/// ∞ where the cosine wo·wm is smaller than D over the largest number of the scalar.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct AllNormals;

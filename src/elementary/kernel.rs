@@ -44,6 +44,10 @@ pub trait Kernel: Copy {
     const SIN: &'static [f64];
     /// See [`super::sin_cos_turns`].
     const COS: &'static [f64];
+    /// sin(2πt)/t in t², |t| ≤ ¼; see `sin_cos_of_turn`.
+    const SIN_OF_TURN: &'static [f64];
+    /// cos(2πt)/(1 − 16t²) in t².
+    const COS_OF_TURN: &'static [f64];
     /// See [`super::erf`].
     const ERF: [&'static [f64]; 2];
     /// See [`super::erfcx`].

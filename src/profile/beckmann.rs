@@ -3,7 +3,7 @@
 pub(crate) mod visible;
 
 use crate::Real;
-use crate::elementary::{erfc_inv_wide, exp, exp_wide, ierfcx, ln_1p, sin_cos_within_turns};
+use crate::elementary::{erfc_inv_wide, exp, exp_wide, ierfcx, ln_1p, sin_cos_of_turn};
 use crate::map::Map;
 use crate::microsurface::Microsurface;
 use crate::ndf::Vec3;
@@ -78,7 +78,7 @@ impl<T: Real> SampleProfile<T> for Beckmann {
     /// tan²θ = −ln(1 − u.x), azimuth 2π u.y: Walter 2007, Eqs. 28–29.
     #[inline(always)]
     fn sample_d(&self, [u1, u2]: [T; 2]) -> [T; 3] {
-        let (sin, cos) = sin_cos_within_turns(u2);
+        let (sin, cos) = sin_cos_of_turn(u2);
         let radius = (-ln_1p(-u1)).sqrt();
         [radius * cos, radius * sin, T::ONE]
     }

@@ -1,7 +1,7 @@
 //! GGX, the distribution of Trowbridge and Reitz.
 
 use crate::Real;
-use crate::elementary::sin_cos_within_turns;
+use crate::elementary::sin_cos_of_turn;
 use crate::map::Map;
 use crate::profile::{Profile, SampleProfile, SampleVisibleProfile, shape_invariant};
 
@@ -57,7 +57,7 @@ impl<T: Real> SampleProfile<T> for Ggx {
     /// tan²θ = u.x/(1 − u.x), azimuth 2π u.y: Walter 2007, Eqs. 35–36.
     #[inline(always)]
     fn sample_d(&self, [u1, u2]: [T; 2]) -> [T; 3] {
-        let (sin, cos) = sin_cos_within_turns(u2);
+        let (sin, cos) = sin_cos_of_turn(u2);
         let radius = u1.sqrt();
         [radius * cos, radius * sin, (T::ONE - u1).sqrt()]
     }
@@ -78,7 +78,7 @@ impl<T: Real> SampleVisibleProfile<T> for Ggx {
         let p = if v[2] < T::ZERO { product / larger } else { larger };
         let z = (T::ONE - u2) * p;
         let radius = (u2 * (p * z + product)).sqrt();
-        let (sin, cos) = sin_cos_within_turns(u1);
+        let (sin, cos) = sin_cos_of_turn(u1);
         [radius * cos + v[0] * inv_length, radius * sin + v[1] * inv_length, z]
     }
 }

@@ -12,7 +12,7 @@ pub mod closed;
 pub mod spline;
 
 use crate::Real;
-use crate::elementary::{exp_m1, ln_1p, pow_wide, sin_cos_within_turns};
+use crate::elementary::{exp_m1, ln_1p, pow_wide, sin_cos_of_turn};
 use crate::error::Error;
 use crate::map::{Isotropic, Map};
 use crate::microsurface::Microsurface;
@@ -248,7 +248,7 @@ impl<T: Real> Density<T> {
         let log_to_horizon = ln_1p((T::Wide::ONE - u) * self.to_pole) * self.inv_one_minus_gamma;
         let sin = (self.scaled_range * exp_m1(log_from_pole)).max(T::Wide::ZERO).sqrt();
         let cos = (-self.inv_range * exp_m1(log_to_horizon)).max(T::Wide::ZERO).sqrt();
-        let (sin_phi, cos_phi) = sin_cos_within_turns(u2);
+        let (sin_phi, cos_phi) = sin_cos_of_turn(u2);
         let (sin, cos) = (T::narrow(sin), T::narrow(cos));
         [sin * cos_phi, sin * sin_phi, cos]
     }

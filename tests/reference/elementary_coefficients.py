@@ -299,6 +299,14 @@ def cos_tail(z):  # cos(2πr) = 1 + z P(z)
     return (cos(2 * pi * sqrt(z)) - 1) / z
 
 
+def sin_of_turn(z):  # sin(2πt) = t P(z), z = t²
+    return sin(2 * pi * sqrt(z)) / sqrt(z)
+
+
+def cos_of_turn(z):  # cos(2πt) = (1 - 16 z) P(z)
+    return cos(2 * pi * sqrt(z)) / (1 - 16 * z)
+
+
 def erf_ratio(z):  # erf(x) = x P(z), z = x²
     return erf(sqrt(z)) / sqrt(z)
 
@@ -318,6 +326,10 @@ for scalar in "f32", "f64":
           lambda: relative(sin_tail, 0, mpf(1) / 64, lambda z: z / (2 * pi)), 2 if single else 5)
     table("COS", scalar, "(cos(2πr) - 1)/r² in r², absolute",
           lambda: relative(cos_tail, 0, mpf(1) / 64, lambda z: z), 3 if single else 6)
+    table("SIN_OF_TURN", scalar, "sin(2πt)/t in t², |t| ≤ ¼, relative",
+          lambda: relative(sin_of_turn, 0, mpf(1) / 16), 4 if single else 8)
+    table("COS_OF_TURN", scalar, "cos(2πt)/(1 - 16t²) in t², relative",
+          lambda: relative(cos_of_turn, 0, mpf(1) / 16), 4 if single else 8)
     table("ERF", scalar, "erf(x)/x in x², relative",
           lambda: relative(erf_ratio, 0, mpf("3.93" if single else "5.93") ** 2), *((6, 5) if single else (12, 12)))
     end = 2**14 if single else 2**28

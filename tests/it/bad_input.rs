@@ -1,0 +1,332 @@
+//! What constructors refuse and how they say it, and that evaluation answers NaN with NaN.
+
+use microsurface::bsdf::RoughConductor;
+use microsurface::fresnel::{Conductor, Dielectric, Fresnel, Perfect, Schlick};
+use microsurface::glam::{DMat2, DVec2, DVec3};
+use microsurface::profile::gtr::Density;
+use microsurface::roughness::{
+    alpha_burley2012, alpha_dimov2015, alpha_pbrt4, alpha_range, alpha_walter2007, alphas_burley2012,
+    alphas_kulla2017, alphas_openpbr, checked, clamped,
+};
+use microsurface::{Beckmann, Error, Ggx, Gtr, Ndf, RoughnessMatrix, SampleNdf, SampleVndf};
+
+use crate::scalar::Scalar;
+use crate::surfaces::{Move, Shape, Spec, Surface, Widths};
+
+/// 0, −0, negative, NaN, infinite, too small and too large.
+fn not_widths<T: Scalar>() -> [T; 9] {
+    let (smallest, largest) = alpha_range::<T>();
+    [
+        T::ZERO,
+        -T::ZERO,
+        -T::ONE,
+        T::NAN,
+        T::INFINITY,
+        -T::INFINITY,
+        T::TINIEST,
+        smallest.stepped(-1),
+        largest.stepped(1),
+    ]
+}
+
+fn widths_are_refused<T: Scalar>() {
+    let (smallest, largest) = alpha_range::<T>();
+    for alpha in not_widths::<T>() {
+        let one = T::ONE;
+        let results = [
+            checked(alpha).err(),
+            Ggx::isotropic(alpha).err(),
+            Ggx::anisotropic(alpha, one).err(),
+            Ggx::anisotropic(one, alpha).err(),
+            Beckmann::isotropic(alpha).err(),
+            RoughnessMatrix::rotated(one, alpha, one).err(),
+            Density::new(alpha, one).err(),
+            Gtr::spline(alpha, one).err(),
+            Gtr::closed::<2>(alpha).err(),
+        ];
+        for error in results {
+            let Some(Error::Alpha { value, smallest: low, largest: high }) = error else {
+                panic!("{}: {error:?}", alpha.hex());
+            };
+            assert!(value == alpha.to_f64() || (value.is_nan() && alpha.to_f64().is_nan()), "{value}");
+            assert_eq!((low, high), (smallest.to_f64(), largest.to_f64()));
+            let message = error.unwrap().to_string();
+            assert!(message.contains(&format!("alpha = {value}")), "{message}");
+        }
+        let near = clamped(alpha);
+        assert!(checked(near).is_ok(), "{}", near.hex());
+    }
+    assert_eq!(clamped(T::NAN), smallest);
+    assert_eq!(clamped(T::INFINITY), largest);
+    assert_eq!(clamped(T::HALF), T::HALF);
+    assert!(checked(smallest).is_ok() && checked(largest).is_ok());
+    let wide = T::ONE.stepped(1);
+    assert_eq!(Gtr::spline(wide, T::ONE).err(), Some(Error::AlphaAboveOne { value: wide.to_f64() }));
+    assert_eq!(Density::new(wide, T::ONE).err(), Some(Error::AlphaAboveOne { value: wide.to_f64() }));
+}
+
+#[test]
+fn widths_are_refused_f32() {
+    widths_are_refused::<f32>();
+}
+
+#[test]
+fn widths_are_refused_f64() {
+    widths_are_refused::<f64>();
+}
+
+#[test]
+fn tail_exponents_are_refused() {
+    for gamma in [-0.1, -f64::TINIEST, f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 4.0_f64.stepped(1), 10.0] {
+        let Some(Error::Gamma { value, largest }) = Gtr::spline(0.3, gamma).err() else { panic!("{gamma}") };
+        assert!(value.to_bits() == gamma.to_bits() && largest == 4.0, "{value}");
+        assert!(Gtr::spline(0.3, gamma).unwrap_err().to_string().contains(&format!("gamma = {gamma}")));
+    }
+    for gamma in [-0.1, f64::NAN, f64::INFINITY, 1e4] {
+        assert!(matches!(Density::new(0.3, gamma), Err(Error::Gamma { .. })), "{gamma}");
+    }
+    assert!(Gtr::spline(0.3, 0.0).is_ok() && Gtr::spline(0.3, 4.0).is_ok() && Gtr::spline(0.3, -0.0).is_ok());
+    assert!(Density::new(1e-16, 10.0_f64).is_ok());
+}
+
+#[test]
+fn roughness_matrices_are_refused() {
+    let bad = [
+        [1.0, 1.0, 1.0],
+        [1.0, 2.0, 1.0],
+        [-1.0, 0.0, -1.0],
+        [1.0, 0.0, -1.0],
+        [0.0, 0.0, 1.0],
+        [1.0, 0.0, 0.0],
+        [f64::NAN, 0.0, 1.0],
+        [1.0, f64::NAN, 1.0],
+        [1.0, 0.0, f64::INFINITY],
+        [f64::INFINITY, 0.0, f64::INFINITY],
+        [1.0, f64::INFINITY, 1.0],
+        [1e-300, 0.0, 1e-300],
+        [1e200, 0.0, 1.0],
+    ];
+    for [xx, xy, yy] in bad {
+        let error = RoughnessMatrix::new(xx, xy, yy).unwrap_err();
+        let Error::RoughnessMatrix { xx: a, xy: b, yy: c, determinant } = error else { panic!("{error:?}") };
+        assert_eq!([a, b, c].map(f64::to_bits), [xx, xy, yy].map(f64::to_bits));
+        if [xx, xy, yy].iter().all(|x| x.abs() < 10.0) {
+            assert_eq!(determinant, xx * yy - xy * xy);
+        }
+        let message = error.to_string();
+        assert!(message.contains(&format!("[[{xx}, {xy}], [{xy}, {yy}]]")), "{message}");
+    }
+    // One ulp from singular is a matrix.
+    assert!(RoughnessMatrix::new(1.0, f64::BELOW_ONE, 1.0).is_ok());
+    assert!(RoughnessMatrix::rotated(0.1, 0.2, f64::NAN).is_err());
+    assert!(RoughnessMatrix::rotated(0.1, 0.2, f64::INFINITY).is_err());
+}
+
+#[test]
+fn maps_are_refused() {
+    let surface = Ggx::anisotropic(0.1, 0.4).unwrap();
+    let columns = |a: [f64; 4]| DMat2::from_cols_array(&a);
+    for (matrix, determinant) in [
+        ([1.0, 2.0, 2.0, 4.0], 0.0),
+        ([0.0; 4], 0.0),
+        ([1.0, 0.0, 0.0, 0.0], 0.0),
+        ([1e300, 0.0, 0.0, 1.0], 1e300),
+        ([1e-200, 0.0, 0.0, 1e-100], 1e-300),
+        ([f64::NAN, 0.0, 0.0, 1.0], f64::NAN),
+        ([f64::INFINITY, 0.0, 0.0, 1.0], f64::INFINITY),
+        ([1.0, f64::NEG_INFINITY, 0.0, 1.0], f64::NAN),
+    ] {
+        let error = surface.transformed(columns(matrix)).unwrap_err();
+        let Error::Map { determinant: named } = error else { panic!("{error:?}") };
+        // What is not finite has no determinant, or any.
+        let finite = matrix.iter().all(|x| x.is_finite());
+        assert!(
+            !finite || (named / determinant - 1.0).abs() < 1e-12 || named == determinant,
+            "{matrix:?}: {named}"
+        );
+        assert!(error.to_string().contains(&format!("determinant {named}")), "{error}");
+    }
+    assert!(surface.transformed(columns([1.0, 2.0, 2.0, 4.000001])).is_ok());
+    assert!(surface.transformed(columns([0.0, 1.0, 1.0, 0.0])).is_ok(), "mirrors are maps");
+    for s in [1.0, -1.0, 1.5, -2.0, f64::NAN, f64::INFINITY] {
+        let Some(Error::Stretch { value }) = surface.stretched(s).err() else { panic!("{s}") };
+        assert_eq!(value.to_bits(), s.to_bits());
+    }
+    assert!(surface.stretched(f64::BELOW_ONE).is_ok() && surface.stretched(-f64::BELOW_ONE).is_ok());
+    assert!(matches!(Ggx::isotropic(1e-76).unwrap().stretched(0.9), Err(Error::Map { .. })));
+}
+
+#[test]
+fn fresnel_terms_are_refused() {
+    for eta in [0.0, -0.0, -1.5, f64::NAN, f64::INFINITY] {
+        let Some(Error::RefractiveIndex { value }) = Dielectric::new(eta).err() else { panic!("{eta}") };
+        assert_eq!(value.to_bits(), eta.to_bits());
+        assert!(matches!(Conductor::new(eta, 1.0), Err(Error::RefractiveIndex { .. })));
+        // The channel at fault is named.
+        let Some(Error::RefractiveIndex { value }) = Dielectric::new(DVec3::new(1.5, eta, -7.0)).err() else {
+            panic!("{eta}")
+        };
+        assert_eq!(value.to_bits(), eta.to_bits());
+    }
+    for k in [-0.1, f64::NAN, f64::INFINITY] {
+        let Some(Error::Extinction { value }) = Conductor::new(1.0, k).err() else { panic!("{k}") };
+        assert_eq!(value.to_bits(), k.to_bits());
+    }
+    assert!(Conductor::new(0.2, 0.0).is_ok());
+}
+
+#[test]
+fn artists_parameters_are_refused() {
+    fn names<R>(result: Result<R, Error>, expected: &str) {
+        let Some(Error::Parameter { name, .. }) = result.err() else { panic!("{expected} accepted") };
+        assert_eq!(name, expected);
+    }
+    for bad in [-0.1, 1.1, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        names(alpha_burley2012(bad), "roughness");
+        names(alpha_dimov2015(bad), "sharpness");
+        names(alphas_burley2012(bad, 0.5), "roughness");
+        names(alphas_burley2012(0.5, bad), "anisotropic");
+        names(alphas_kulla2017(bad, 0.5), "roughness");
+        names(alphas_openpbr(bad, 0.5), "roughness");
+        names(alphas_openpbr(0.5, bad), "anisotropy");
+        if bad != 1.1 {
+            names(alphas_kulla2017(0.5, if bad == -0.1 { -1.1 } else { bad }), "anisotropy");
+        }
+        if bad < 0.0 || bad.is_nan() {
+            names(alpha_pbrt4(bad), "roughness");
+            names(alpha_walter2007(bad), "exponent");
+        }
+    }
+    names(alpha_walter2007(f64::INFINITY), "exponent");
+    for mirror in [alpha_burley2012(0.0), alpha_pbrt4(0.0), alpha_dimov2015(1.0)] {
+        assert!(matches!(mirror, Err(Error::Alpha { value: 0.0, .. })), "{mirror:?}");
+    }
+    assert!(matches!(alpha_pbrt4(f64::INFINITY), Err(Error::Alpha { .. })));
+    assert!(matches!(alphas_kulla2017(0.5, 1.0), Err(Error::Alpha { value: 0.0, .. })));
+    assert!(matches!(alphas_openpbr(0.5, 1.0), Err(Error::Alpha { value: 0.0, .. })));
+}
+
+/// A surface of each profile under each type of map.
+fn surfaces<T: Scalar>() -> Vec<Surface<T>> {
+    let mut surfaces = Vec::new();
+    for shape in [
+        Shape::Ggx,
+        Shape::Beckmann,
+        Shape::Gtr { alpha: 0.3, gamma: 0 },
+        Shape::Gtr { alpha: 0.3, gamma: 1 },
+        Shape::Gtr { alpha: 0.3, gamma: 4 },
+        Shape::Spline { alpha: 0.3, gamma: 1.5 },
+    ] {
+        for widths in [
+            Widths::Isotropic(0.7),
+            Widths::AxisAligned(0.2, 0.9),
+            Widths::Matrix { x: 0.3, y: 0.5, correlation: 0.4 },
+        ] {
+            surfaces.push(Spec::new(shape, widths, Move::Stay).build().unwrap());
+        }
+    }
+    surfaces
+}
+
+/// One NaN in any argument, above the horizon, gives NaN.
+fn nan_gives_nan<T: Scalar>() {
+    let is_nan = |x: T| x.to_f64().is_nan();
+    let [w, v, m] = [[0.6, 0.0, 0.8], [0.0, 0.28, 0.96], [0.1, -0.2, 0.97]].map(|v| v.map(T::lit));
+    let u = [T::HALF, T::lit(0.25)];
+    for surface in surfaces::<T>() {
+        for k in 0..3 {
+            let spoiled = |mut v: [T; 3]| -> T::Vec3 {
+                v[k] = T::NAN;
+                v.into()
+            };
+            let (bad_w, bad_m, w, v, m) = (spoiled(w), spoiled(m), w.into(), v.into(), m.into());
+            let brdf = RoughConductor::new(surface.clone(), Schlick::new(T::HALF));
+            let by_name = [
+                ("d", surface.d(bad_m)),
+                ("sigma", surface.sigma(bad_w)),
+                ("lambda", surface.lambda(bad_w)),
+                ("d_along", surface.d_along(bad_m)),
+                ("g1 w", surface.g1(bad_w, m)),
+                ("g1 m", surface.g1(w, bad_m)),
+                ("g2 i", surface.g2(bad_w, v, m)),
+                ("g2 o", surface.g2(v, bad_w, m)),
+                ("g2 m", surface.g2(w, v, bad_m)),
+                ("separable", surface.g2_separable(w, v, bad_m)),
+                ("vndf w", surface.vndf(bad_w, m)),
+                ("vndf m", surface.vndf(w, bad_m)),
+                ("pdf_d", surface.pdf_d(bad_m)),
+                ("eval i", brdf.eval(bad_w, v)),
+                ("eval o", brdf.eval(v, bad_w)),
+            ];
+            for (name, value) in by_name {
+                assert!(is_nan(value), "{surface:?} {name}, component {k}: {}", value.hex());
+            }
+            if surface.samples_visible() {
+                let sample: [T; 3] = surface.sample_vndf(bad_w, u.into()).into();
+                assert!(sample.iter().any(|&c| is_nan(c)), "{surface:?} {sample:?}");
+                assert!(is_nan(brdf.pdf(bad_w, v)) && is_nan(brdf.pdf(v, bad_w)), "{surface:?}");
+                assert!(brdf.sample(bad_w, u.into()).is_none(), "{surface:?}: no sample of nowhere");
+            }
+        }
+        for k in 0..2 {
+            let mut bad = u;
+            bad[k] = T::NAN;
+            assert!(is_nan(surface.p22(bad.into())), "{surface:?}");
+            let sample: [T; 3] = surface.sample_d(bad.into()).into();
+            assert!(sample.iter().any(|&c| is_nan(c)), "{surface:?} {k}: {sample:?}");
+            if surface.samples_visible() {
+                let sample: [T; 3] = surface.sample_vndf(w.into(), bad.into()).into();
+                assert!(sample.iter().any(|&c| is_nan(c)), "{surface:?} {k}: {sample:?}");
+            }
+        }
+    }
+    assert!(is_nan(Schlick::new(T::HALF).reflectance(T::NAN)));
+    assert!(is_nan(Dielectric::new(T::TWO).unwrap().reflectance(T::NAN)));
+    assert!(is_nan(Conductor::new(T::TWO, T::ONE).unwrap().reflectance(T::NAN)));
+}
+
+#[test]
+fn nan_gives_nan_f32() {
+    nan_gives_nan::<f32>();
+}
+
+#[test]
+fn nan_gives_nan_f64() {
+    nan_gives_nan::<f64>();
+}
+
+/// What the documentation says of the horizon and below.
+#[test]
+fn the_horizon_is_as_documented() {
+    let (up, level, down) =
+        (DVec3::new(0.6, 0.0, 0.8), DVec3::new(0.6, 0.8, 0.0), DVec3::new(0.6, 0.0, -0.8));
+    for surface in surfaces::<f64>() {
+        assert_eq!(surface.d(down), 0.0);
+        assert_eq!(surface.lambda(level), f64::INFINITY);
+        assert_eq!(surface.lambda(-up), -1.0 - surface.lambda(up));
+        assert!(surface.sigma(level) > 0.0 && surface.sigma(down) > 0.0);
+        for low in [level, down] {
+            assert_eq!(surface.g1(low, low), 0.0, "{surface:?}");
+            assert_eq!(surface.g2(low, up, DVec3::Z), 0.0);
+            assert_eq!(surface.g2(up, low, DVec3::Z), 0.0);
+        }
+        assert_eq!(surface.g1(up, DVec3::new(-0.8, 0.0, 0.6)), 0.0, "on the back");
+        assert_eq!(surface.vndf(-DVec3::Z, DVec3::Z), 0.0, "nothing is visible from the nadir");
+        let brdf = RoughConductor::new(surface.clone(), Perfect::<f64>::new());
+        for low in [level, down] {
+            assert_eq!((brdf.eval(low, up), brdf.eval(up, low)), (0.0, 0.0));
+        }
+        if surface.samples_visible() {
+            assert_eq!((brdf.pdf(down, up), brdf.pdf(up, level)), (0.0, 0.0));
+            assert!(
+                brdf.sample(level, DVec2::new(0.2, 0.3)).is_none()
+                    && brdf.sample(down, DVec2::ZERO).is_none()
+            );
+        }
+        assert_eq!(
+            brdf.eval(DVec3::new(-1.0, 0.0, 1e-160), DVec3::new(1.0, 0.0, 1e-160)),
+            0.0,
+            "no half vector"
+        );
+    }
+}

@@ -1,0 +1,182 @@
+//! D, σ, Λ, G1, G2, visible normals and the reflection, evaluated.
+
+use microsurface::Ndf;
+use microsurface::bsdf::RoughConductor;
+use microsurface::fresnel::{Conductor, Perfect};
+use proptest::prelude::*;
+
+use super::{Outcome, check, for_both_scalars, near, roundings_of_d, skewness};
+use crate::scalar::{Scalar, dot, unit, vec3, wide};
+use crate::strategies::{above, anywhere, pairs, strictly_above, surface};
+use crate::surfaces::{Shape, Spec, Surface};
+
+for_both_scalars! {
+    density_is_not_negative_and_zero_below
+    projected_area_bounds_the_cosine
+    projected_areas_of_both_sides_differ_by_the_cosine
+    lambda_is_that_of_the_projected_area
+    masking_is_ordered
+    reflection_is_reciprocal
+    density_along_a_half_vector_is_that_of_its_direction
+    slope_density_is_that_of_the_normal
+    visible_normals_are_those_of_the_definition
+}
+
+/// The surface, or none where rounding to the scalar leaves the domain.
+pub(super) fn built<T: Scalar>(spec: &Spec) -> Result<Surface<T>, TestCaseError> {
+    spec.build().map_err(|_| TestCaseError::reject("outside the range of the scalar"))
+}
+
+fn density_is_not_negative_and_zero_below<T: Scalar>() {
+    check(3000, (surface(), anywhere::<T>()), |(spec, m)| {
+        let surface = built::<T>(&spec)?;
+        let d = surface.d(m.into());
+        prop_assert!(d >= T::ZERO && d.is_finite(), "D = {}", d.hex());
+        prop_assert!(m[2] >= T::ZERO || d == T::ZERO, "D = {} below", d.hex());
+        Ok(())
+    });
+}
+
+fn projected_area_bounds_the_cosine<T: Scalar>() {
+    check(3000, (surface(), anywhere::<T>()), |(spec, w)| {
+        let surface = built::<T>(&spec)?;
+        let sigma = surface.sigma(w.into());
+        prop_assert!(sigma.is_finite() && sigma >= w[2].max(T::ZERO), "σ = {}", sigma.hex());
+        if w[2] >= T::ZERO {
+            prop_assert_eq!(sigma, surface.sigma_above(w.into()));
+        }
+        Ok(())
+    });
+}
+
+fn projected_areas_of_both_sides_differ_by_the_cosine<T: Scalar>() {
+    check(3000, (surface(), above::<T>()), |(spec, w)| {
+        let surface = built::<T>(&spec)?;
+        let other = w.map(|c| -c);
+        let (front, back) = (surface.sigma(w.into()), surface.sigma(other.into()));
+        near("σ(w) and σ(−w) + z", front, back + w[2], 3.0)
+    });
+}
+
+fn lambda_is_that_of_the_projected_area<T: Scalar>() {
+    check(3000, (surface(), above::<T>()), |(spec, w)| {
+        let surface = built::<T>(&spec)?;
+        let lambda = surface.lambda(w.into());
+        prop_assert!(lambda >= T::ZERO, "Λ = {}", lambda.hex());
+        if w[2] == T::ZERO {
+            prop_assert!(lambda == T::INFINITY, "Λ = {} at the horizon", lambda.hex());
+            return Ok(());
+        }
+        let below = surface.lambda(w.map(|c| -c).into());
+        prop_assert_eq!(below, -T::ONE - lambda);
+        if lambda.is_finite() {
+            near("z (1 + Λ) and σ", w[2] * (T::ONE + lambda), surface.sigma(w.into()), 4.0)?;
+        }
+        Ok(())
+    });
+}
+
+fn masking_is_ordered<T: Scalar>() {
+    check(4000, (surface(), pairs::<T>(), anywhere::<T>()), |(spec, (i, o), m)| {
+        let surface = built::<T>(&spec)?;
+        let (wi, wo, wm) = (i.into(), o.into(), m.into());
+        let (g1i, g1o) = (surface.g1(wi, wm), surface.g1(wo, wm));
+        let (g2, separable) = (surface.g2(wi, wo, wm), surface.g2_separable(wi, wo, wm));
+        for g in [g1i, g1o, g2, separable] {
+            prop_assert!(g >= T::ZERO && g <= T::ONE, "G = {}", g.hex());
+        }
+        let slack = T::ONE + T::lit(4.0) * T::EPSILON;
+        prop_assert!(g2 <= g1i.min(g1o) * slack, "G2 = {} above G1", g2.hex());
+        prop_assert!(separable <= g2 * slack + T::MIN_POSITIVE, "G1 G1 = {} above G2", separable.hex());
+        prop_assert_eq!(g2, surface.g2(wo, wi, wm));
+        if !(dot(i, m) > T::ZERO && dot(o, m) > T::ZERO) {
+            prop_assert!(g2 == T::ZERO, "G2 = {} on the back", g2.hex());
+        }
+        Ok(())
+    });
+}
+
+fn reflection_is_reciprocal<T: Scalar>() {
+    check(4000, (surface(), pairs::<T>()), |(spec, (i, o))| {
+        let fresnel = Conductor::new(T::lit(0.21), T::lit(3.67)).expect("copper");
+        let copper = RoughConductor::new(built::<T>(&spec)?, fresnel);
+        let (f, g) = (copper.eval(i.into(), o.into()), copper.eval(o.into(), i.into()));
+        prop_assert!(f >= T::ZERO, "f = {}", f.hex());
+        prop_assert!(f == g, "f = {} one way and {} the other", f.hex(), g.hex());
+        Ok(())
+    });
+}
+
+/// At a normal that is not at the horizon, where D of a Beckmann surface has no condition.
+fn density_along_a_half_vector_is_that_of_its_direction<T: Scalar>() {
+    check(3000, (surface(), pairs::<T>()), |(spec, (i, o))| {
+        let surface = built::<T>(&spec)?;
+        let h: [T; 3] = core::array::from_fn(|k| i[k] + o[k]);
+        let m = unit(wide(h));
+        prop_assume!(m[2] > 1e-6 && wide(h)[2] > 1e-6);
+        let roundings = roundings_of_d(&spec, m, 0.0) * skewness(&spec);
+        prop_assume!(roundings * T::EPSILON.to_f64() < 0.1);
+        near("D along h", surface.d_along(h.into()), surface.d(vec3::<T>(m)), 1.5 * roundings)
+    });
+}
+
+fn slope_density_is_that_of_the_normal<T: Scalar>() {
+    check(3000, (surface(), strictly_above::<T>()), |(spec, m)| {
+        let surface = built::<T>(&spec)?;
+        let [x, y, z] = m;
+        prop_assume!(z.to_f64() > 1e-6);
+        let slope: T::Vec2 = [-x / z, -y / z].into();
+        let z2 = z * z;
+        let roundings = roundings_of_d(&spec, wide(m), 0.0) * skewness(&spec);
+        prop_assume!(roundings * T::EPSILON.to_f64() < 0.1);
+        near("P22 and D z⁴", surface.p22(slope), surface.d(m.into()) * z2 * z2, 1.5 * roundings)
+    });
+}
+
+fn visible_normals_are_those_of_the_definition<T: Scalar>() {
+    check(3000, (surface(), anywhere::<T>(), anywhere::<T>()), |(spec, w, m)| {
+        let surface = built::<T>(&spec)?;
+        let (direction, normal) = (w.into(), m.into());
+        let vndf = surface.vndf(direction, normal);
+        prop_assert!(vndf >= T::ZERO, "D_w = {}", vndf.hex());
+        let facing = dot(w, m);
+        if facing <= T::ZERO || m[2] < T::ZERO {
+            prop_assert!(vndf == T::ZERO, "D_w = {} of what is not seen", vndf.hex());
+        } else if vndf.is_finite() && surface.sigma(direction) > T::MIN_POSITIVE {
+            near("D_w σ", vndf * surface.sigma(direction), facing * surface.d(normal), 2.0)?;
+        }
+        Ok(())
+    });
+}
+
+#[test]
+fn single_precision_agrees_with_double() {
+    fn agree(spec: &Spec, w: [f32; 3]) -> Outcome {
+        let spec = spec.rounded();
+        let (narrow, exact) = (built::<f32>(&spec)?, built::<f64>(&spec)?);
+        let (v, direction) = (vec3::<f64>(wide(w)), w.into());
+        let skew = skewness(&spec);
+        // Below the horizon a Gaussian tail is seen, whose exponent is that of the direction's slope.
+        let exponent = if w[2] < 0.0 && spec.shape == Shape::Beckmann {
+            let [x, y] = spec.factor::<f64>().map(|c| c[0] * v.x + c[1] * v.y);
+            v.z * v.z / (x * x + y * y)
+        } else {
+            0.0
+        };
+        let area = |name, a: f32, b: f64| near(name, a, b as f32, (8.0 + 3.0 * exponent) * skew);
+        // A spline's σ from below is a difference; and next to the nadir the closed mask of α = 1 underflows.
+        if w[2] >= 0.0 || (spec.exact_mask() && exact.sigma(v) > 1e-20) {
+            area("σ", narrow.sigma(direction), exact.sigma(v))?;
+        }
+        if w[2] > 0.0 {
+            let brdf = RoughConductor::new(exact.clone(), Perfect::<f64>::new());
+            prop_assert!(brdf.eval(v, v) >= 0.0);
+            let roundings = roundings_of_d(&spec, wide(w), 0.0) * skew;
+            if roundings < 1e5 {
+                near("D", narrow.d(direction), exact.d(v) as f32, roundings)?;
+            }
+        }
+        Ok(())
+    }
+    check(6000, (surface(), anywhere::<f32>()), |(spec, w)| agree(&spec, w));
+}

@@ -1,0 +1,279 @@
+//! Surfaces as plain data, so that one test body runs over every profile and map, a failure can be printed, and
+//! the linear map is known from the parameters alone, without the crate's own map code.
+
+use core::fmt;
+use std::rc::Rc;
+
+use microsurface::map::{AxisAligned, Isotropic, Linear};
+use microsurface::ndf::{Ndf, SampleNdf, SampleVndf, Vec2, Vec3};
+use microsurface::profile::{SampleProfile, SampleVisibleProfile};
+use microsurface::{Beckmann, Error, Ggx, Gtr, Microsurface, Real, RoughnessMatrix};
+
+/// A profile and its own parameters.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Shape {
+    Ggx,
+    Beckmann,
+    Gtr { alpha: f64, gamma: u8 },
+    Spline { alpha: f64, gamma: f64 },
+}
+
+/// The slope widths given when a surface is built; for GTR a map on top of the profile's own α.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Widths {
+    Isotropic(f64),
+    AxisAligned(f64, f64),
+    Matrix { x: f64, y: f64, correlation: f64 },
+}
+
+/// What happens to the surface afterwards.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Move {
+    Stay,
+    /// The columns of a matrix.
+    Transform([[f64; 2]; 2]),
+    Stretch(f64),
+}
+
+/// All that is needed to build a surface of either scalar.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Spec {
+    pub(crate) shape: Shape,
+    pub(crate) widths: Widths,
+    pub(crate) moved: Move,
+}
+
+impl Spec {
+    pub(crate) const fn new(shape: Shape, widths: Widths, moved: Move) -> Self {
+        Self { shape, widths, moved }
+    }
+
+    /// Whether σ is that of D to rounding.
+    pub(crate) fn exact_mask(&self) -> bool {
+        !matches!(self.shape, Shape::Spline { .. })
+    }
+
+    /// With every parameter rounded to f32, so that both scalars hold the same; widths of matrices as their entries
+    /// cannot be, and are left out.
+    pub(crate) fn rounded(&self) -> Self {
+        let held = |x: f64| f64::from(x as f32);
+        let shape = match self.shape {
+            Shape::Gtr { alpha, gamma } => Shape::Gtr { alpha: held(alpha), gamma },
+            Shape::Spline { alpha, gamma } => Shape::Spline { alpha: held(alpha), gamma: held(gamma) },
+            shape => shape,
+        };
+        let widths = match self.widths {
+            Widths::Isotropic(x) => Widths::Isotropic(held(x)),
+            Widths::AxisAligned(x, y) | Widths::Matrix { x, y, .. } => Widths::AxisAligned(held(x), held(y)),
+        };
+        let moved = match self.moved {
+            Move::Stay => Move::Stay,
+            Move::Transform(columns) => Move::Transform(columns.map(|column| column.map(held))),
+            Move::Stretch(s) => Move::Stretch(held(s)),
+        };
+        Self { shape, widths, moved }
+    }
+
+    pub(crate) fn build<T: Real>(&self) -> Result<Surface<T>, Error> {
+        match self.shape {
+            Shape::Ggx => self.visible(Ggx),
+            Shape::Beckmann => self.visible(Beckmann),
+            Shape::Gtr { alpha, gamma } => {
+                let alpha = T::lit(alpha);
+                match gamma {
+                    0 => self.hidden(*Gtr::closed::<0>(alpha)?.profile()),
+                    1 => self.hidden(*Gtr::closed::<1>(alpha)?.profile()),
+                    2 => self.hidden(*Gtr::closed::<2>(alpha)?.profile()),
+                    3 => self.hidden(*Gtr::closed::<3>(alpha)?.profile()),
+                    _ => self.hidden(*Gtr::closed::<4>(alpha)?.profile()),
+                }
+            }
+            Shape::Spline { alpha, gamma } => {
+                self.hidden(*Gtr::spline(T::lit(alpha), T::lit(gamma))?.profile())
+            }
+        }
+    }
+
+    /// A factor F of A = F Fᵀ, by columns, from the parameters as `T` holds them: slopes are t = F p with p those
+    /// of the isotropic profile.
+    pub(crate) fn factor<T: Real>(&self) -> [[f64; 2]; 2] {
+        let held = |x: f64| T::lit(x).to_f64();
+        let [[a, b], [c, d]] = match self.widths {
+            Widths::Isotropic(alpha) => [[held(alpha), 0.0], [0.0, held(alpha)]],
+            Widths::AxisAligned(x, y) => [[held(x), 0.0], [0.0, held(y)]],
+            Widths::Matrix { .. } => {
+                let [xx, xy, yy] = self.matrix_entries().map(held);
+                let corner = xx.sqrt();
+                // xx yy − xy² without its cancellation.
+                let product = xy * xy;
+                let det = xx.mul_add(yy, -product) - xy.mul_add(xy, -product);
+                [[corner, xy / corner], [0.0, det.sqrt() / corner]]
+            }
+        };
+        match self.moved {
+            Move::Stay => [[a, b], [c, d]],
+            Move::Transform(columns) => {
+                // Slopes go with the inverse transpose of the points' matrix.
+                let [[m11, m21], [m12, m22]] = columns.map(|column| column.map(held));
+                let det = m11 * m22 - m12 * m21;
+                let inverse_transpose =
+                    |[x, y]: [f64; 2]| [(m22 * x - m21 * y) / det, (m11 * y - m12 * x) / det];
+                [inverse_transpose([a, b]), inverse_transpose([c, d])]
+            }
+            Move::Stretch(s) => {
+                let s = held(s);
+                let along = if s >= 0.0 { 1.0 / (1.0 - s) } else { 1.0 + s };
+                [[a / along, b * along], [c / along, d * along]]
+            }
+        }
+    }
+
+    fn matrix_entries(&self) -> [f64; 3] {
+        match self.widths {
+            Widths::Isotropic(a) => [a * a, 0.0, a * a],
+            Widths::AxisAligned(x, y) => [x * x, 0.0, y * y],
+            Widths::Matrix { x, y, correlation } => [x * x, correlation * (x * y), y * y],
+        }
+    }
+
+    fn visible<T: Real, P: SampleVisibleProfile<T> + SampleProfile<T> + 'static>(
+        &self,
+        profile: P,
+    ) -> Result<Surface<T>, Error> {
+        let (ndf, visible): Handles<T> = match self.map(profile)? {
+            AnyMap::Isotropic(m) => shared_visible(Microsurface::new(profile, m)),
+            AnyMap::AxisAligned(m) => shared_visible(Microsurface::new(profile, m)),
+            AnyMap::Linear(m) => shared_visible(Microsurface::new(profile, m)),
+        };
+        Ok(Surface { spec: *self, ndf, visible })
+    }
+
+    fn hidden<T: Real, P: SampleProfile<T> + 'static>(&self, profile: P) -> Result<Surface<T>, Error> {
+        let ndf: Rc<dyn SampleNdf<Scalar = T>> = match self.map(profile)? {
+            AnyMap::Isotropic(m) => Rc::new(Microsurface::new(profile, m)),
+            AnyMap::AxisAligned(m) => Rc::new(Microsurface::new(profile, m)),
+            AnyMap::Linear(m) => Rc::new(Microsurface::new(profile, m)),
+        };
+        Ok(Surface { spec: *self, ndf, visible: None })
+    }
+
+    /// The crate's map of these parameters, by way of the surface of `profile`.
+    fn map<T: Real, P: Copy>(&self, profile: P) -> Result<AnyMap<T>, Error> {
+        let base = match self.widths {
+            Widths::Isotropic(alpha) => AnyMap::Isotropic(Isotropic::new(T::lit(alpha))?),
+            Widths::AxisAligned(x, y) => AnyMap::AxisAligned(AxisAligned::new(T::lit(x), T::lit(y))?),
+            Widths::Matrix { .. } => {
+                let [xx, xy, yy] = self.matrix_entries().map(T::lit);
+                AnyMap::Linear(Linear::from(RoughnessMatrix::new(xx, xy, yy)?))
+            }
+        };
+        let matrix = |columns: [[f64; 2]; 2]| T::matrix(columns.map(|column| column.map(T::lit)));
+        Ok(match (self.moved, base) {
+            (Move::Stay, base) => base,
+            (Move::Transform(m), AnyMap::Isotropic(b)) => {
+                AnyMap::Linear(*Microsurface::new(profile, b).transformed(matrix(m))?.map())
+            }
+            (Move::Transform(m), AnyMap::AxisAligned(b)) => {
+                AnyMap::Linear(*Microsurface::new(profile, b).transformed(matrix(m))?.map())
+            }
+            (Move::Transform(m), AnyMap::Linear(b)) => {
+                AnyMap::Linear(*Microsurface::new(profile, b).transformed(matrix(m))?.map())
+            }
+            (Move::Stretch(s), AnyMap::Isotropic(b)) => {
+                AnyMap::AxisAligned(*Microsurface::new(profile, b).stretched(T::lit(s))?.map())
+            }
+            (Move::Stretch(s), AnyMap::AxisAligned(b)) => {
+                AnyMap::AxisAligned(*Microsurface::new(profile, b).stretched(T::lit(s))?.map())
+            }
+            (Move::Stretch(s), AnyMap::Linear(b)) => {
+                AnyMap::Linear(*Microsurface::new(profile, b).stretched(T::lit(s))?.map())
+            }
+        })
+    }
+}
+
+enum AnyMap<T> {
+    Isotropic(Isotropic<T>),
+    AxisAligned(AxisAligned<T>),
+    Linear(Linear<T>),
+}
+
+type Handles<T> = (Rc<dyn SampleNdf<Scalar = T>>, Option<Rc<dyn SampleVndf<Scalar = T>>>);
+
+fn shared_visible<T: Real, N>(surface: N) -> Handles<T>
+where
+    N: SampleNdf<Scalar = T> + SampleVndf<Scalar = T> + 'static,
+{
+    let surface = Rc::new(surface);
+    (surface.clone(), Some(surface))
+}
+
+/// A surface of the crate behind one type. Every method is the crate's own.
+#[derive(Clone)]
+pub(crate) struct Surface<T: Real> {
+    pub(crate) spec: Spec,
+    ndf: Rc<dyn SampleNdf<Scalar = T>>,
+    visible: Option<Rc<dyn SampleVndf<Scalar = T>>>,
+}
+
+impl<T: Real> Surface<T> {
+    /// Whether visible normals can be drawn.
+    pub(crate) fn samples_visible(&self) -> bool {
+        self.visible.is_some()
+    }
+}
+
+impl<T: Real> fmt::Debug for Surface<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:?} {:?} {:?}", self.spec.shape, self.spec.widths, self.spec.moved)
+    }
+}
+
+impl<T: Real> Ndf for Surface<T> {
+    type Scalar = T;
+    fn d(&self, wm: Vec3<Self>) -> T {
+        self.ndf.d(wm)
+    }
+    fn sigma(&self, w: Vec3<Self>) -> T {
+        self.ndf.sigma(w)
+    }
+    fn lambda(&self, w: Vec3<Self>) -> T {
+        self.ndf.lambda(w)
+    }
+    fn sigma_above(&self, w: Vec3<Self>) -> T {
+        self.ndf.sigma_above(w)
+    }
+    fn d_along(&self, h: Vec3<Self>) -> T {
+        self.ndf.d_along(h)
+    }
+    fn p22(&self, slope: Vec2<Self>) -> T {
+        self.ndf.p22(slope)
+    }
+    fn g1(&self, w: Vec3<Self>, wm: Vec3<Self>) -> T {
+        self.ndf.g1(w, wm)
+    }
+    fn g2(&self, wi: Vec3<Self>, wo: Vec3<Self>, wm: Vec3<Self>) -> T {
+        self.ndf.g2(wi, wo, wm)
+    }
+    fn g2_separable(&self, wi: Vec3<Self>, wo: Vec3<Self>, wm: Vec3<Self>) -> T {
+        self.ndf.g2_separable(wi, wo, wm)
+    }
+    fn vndf(&self, w: Vec3<Self>, wm: Vec3<Self>) -> T {
+        self.ndf.vndf(w, wm)
+    }
+}
+
+impl<T: Real> SampleNdf for Surface<T> {
+    fn sample_d(&self, u: Vec2<Self>) -> Vec3<Self> {
+        self.ndf.sample_d(u)
+    }
+    fn pdf_d(&self, wm: Vec3<Self>) -> T {
+        self.ndf.pdf_d(wm)
+    }
+}
+
+impl<T: Real> SampleVndf for Surface<T> {
+    fn sample_vndf(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self> {
+        self.visible.as_ref().expect("a profile whose visible normals can be drawn").sample_vndf(w, u)
+    }
+}
