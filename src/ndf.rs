@@ -143,8 +143,12 @@ pub trait Ndf {
         let (i, o, m): ([Self::Scalar; 3], [Self::Scalar; 3], _) = (wi.into(), wo.into(), wm.into());
         let (zi, zo) = (i[2], o[2]);
         let visible = step(dot(i, m)) * step(dot(o, m));
-        let g2 = cosine_scale::<Self::Scalar>() * zi * zo
-            / masked_cosines(zi, zo, self.sigma_above(wi), self.sigma_above(wo));
+        // The product of the cosines by the cube of the scale, so that it underflows no earlier than the result.
+        let (scale, sigma_i, sigma_o) =
+            (cosine_scale::<Self::Scalar>(), self.sigma_above(wi), self.sigma_above(wo));
+        let square = scale * scale;
+        let ratio = (square * zi) * (scale * zo) / masked_cosines(zi, zo, sigma_i, sigma_o);
+        let g2 = ratio * (Self::Scalar::ONE / square);
         if zi <= Self::Scalar::ZERO || zo <= Self::Scalar::ZERO { Self::Scalar::ZERO } else { visible * g2 }
     }
 
