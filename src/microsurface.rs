@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::map::{Linear, Map, moved};
 use crate::ndf::{Ndf, SampleNdf, SampleVndf, Vec2, Vec3};
 use crate::profile::{Profile, SampleProfile, SampleVisibleProfile};
-use crate::vector::{dot, normalized};
+use crate::vector::{dot, normalized, positive_part};
 
 /// A microsurface: the isotropic slope profile `P` seen through the linear map `M` of the tangent plane.
 ///
@@ -168,27 +168,40 @@ impl<P: SampleVisibleProfile<M::Scalar>, M: Map> SampleVndf for Microsurface<P, 
 /// The direction of m, of any length, turned towards w where rounding had turned it away.
 ///
 /// The facets at the edge of visibility have w·m = 0; a sample there may come out behind by the rounding of the
-/// sum, and would have no density. It is moved towards w to w·m of 8ε of the terms of the sum, and at least 2⁻⁶⁴ (f32)
-/// or 2⁻⁵¹² (f64) of the length where all terms vanish. The move is a rounding itself but at the very edge, where m
-/// is the difference of two equal vectors; hence it comes before the normalisation.
+/// sum, and would have no density. Nearly all samples are farther from the edge than that, which one comparison
+/// tells.
 #[inline(always)]
 fn turned_into_view<T: Real>(w: [T; 3], m: [T; 3]) -> [T; 3] {
-    // From below, the difference may be so short that its square is no number.
-    let largest = m[0].abs().max(m[1].abs()).max(m[2].abs());
+    let (w_m, length2) = (dot(w, m), dot(m, m));
+    // 16ε|m| bounds the rounding of w·m, here and once more by whoever uses the sample: 3ε Σ|terms| ≤ 3√3 ε|m| each.
+    let edge = T::lit(256.0) * T::EPSILON * T::EPSILON * length2;
+    if w_m * w_m.abs() > edge {
+        let inv_length = T::ONE / length2.sqrt();
+        return m.map(|c| c * inv_length);
+    }
+    turned_from_the_edge(w, m)
+}
+
+/// The same for a facet near the edge of visibility, whose m may be the difference of two equal vectors.
+///
+/// It is moved towards w to w·m of 8ε of the terms of the sum, and at least 2⁻⁶⁴ (f32) or 2⁻⁵¹² (f64) of the length
+/// where all terms vanish, before it is normalised.
+#[inline(always)]
+fn turned_from_the_edge<T: Real>(w: [T; 3], m: [T; 3]) -> [T; 3] {
+    let sum_of_magnitudes = |v: [T; 3]| v[0].abs() + v[1].abs() + v[2].abs();
     let (short, longer, least) = if T::WIDENS {
         (9.313225746154785e-10, 1073741824.0, 5.421010862427522e-20) // 2⁻³⁰, 2³⁰, 2⁻⁶⁴
     } else {
         (6.223015277861142e-61, 1.6069380442589903e60, 7.458340731200207e-155) // 2⁻²⁰⁰, 2²⁰⁰, 2⁻⁵¹²
     };
-    let scale = if largest < T::lit(short) { T::lit(longer) } else { T::ONE };
+    // So that its square is a number.
+    let scale = if sum_of_magnitudes(m) < T::lit(short) { T::lit(longer) } else { T::ONE };
     let m = m.map(|c| c * scale);
     let terms = [w[0] * m[0], w[1] * m[1], w[2] * m[2]];
-    let least = T::lit(least);
-    let margin = T::lit(8.0) * T::EPSILON * (terms[0].abs() + terms[1].abs() + terms[2].abs())
-        + least * (m[0].abs() + m[1].abs() + m[2].abs());
-    let push = (margin - (terms[0] + terms[1] + terms[2])).max(T::ZERO);
+    let margin = T::lit(8.0) * T::EPSILON * sum_of_magnitudes(terms) + T::lit(least) * sum_of_magnitudes(m);
+    let push = positive_part(margin - (terms[0] + terms[1] + terms[2]));
     // Along w, or along its horizontal part from below, so that no facet comes to look down.
-    let towards = [w[0], w[1], w[2].max(T::ZERO)];
+    let towards = [w[0], w[1], positive_part(w[2])];
     let push = push / dot(towards, towards);
     normalized([m[0] + push * towards[0], m[1] + push * towards[1], m[2] + push * towards[2]])
 }

@@ -64,21 +64,20 @@ impl<T: Real> SampleProfile<T> for Ggx {
 }
 
 impl<T: Real> SampleVisibleProfile<T> for Ggx {
-    /// A point c uniform on the spherical cap c.z ≥ −v.z, azimuth 2π u.x and height by u.y; the normal is c + v.
+    /// A point c uniform on the spherical cap c.z ≥ −v.z of the normalised v, azimuth 2π u.x and height by u.y; the
+    /// normal is c + v.
     ///
-    /// Written with p = 1 + v.z and n = 1 − v.z, nothing cancels: (c + v).z = (1 − u.y) p, and the radius of c is
-    /// √((1 − c.z)(1 + c.z)) = √(u.y (p (1 − u.y) p + p n)), p n = s² of the normalised v.
+    /// Written for |v| (c + v), nothing is divided and nothing cancels: with ℓ = |v| and p = ℓ + v.z, its height is
+    /// (1 − u.y) p and the radius of ℓ c is √(u.y ((1 − u.y) p² + v.x² + v.y²)).
     #[inline(always)]
-    fn sample_visible(&self, v: [T; 3], [u1, u2]: [T; 2]) -> [T; 3] {
-        let s2 = v[0] * v[0] + v[1] * v[1];
-        let inv_length = T::ONE / (s2 + v[2] * v[2]).sqrt();
-        // p n = s², and the larger of p and n is well conditioned.
-        let product = s2 * (inv_length * inv_length);
-        let larger = T::ONE + v[2].abs() * inv_length;
-        let p = if v[2] < T::ZERO { product / larger } else { larger };
-        let z = (T::ONE - u2) * p;
-        let radius = (u2 * (p * z + product)).sqrt();
+    fn sample_visible(&self, [x, y, z]: [T; 3], [u1, u2]: [T; 2]) -> [T; 3] {
+        let s2 = x * x + y * y;
+        // From below p = s²/(ℓ − v.z).
+        let larger = (s2 + z * z).sqrt() + z.abs();
+        let p = if z < T::ZERO { s2 / larger } else { larger };
+        let height = (T::ONE - u2) * p;
+        let radius = (u2 * (p * height + s2)).sqrt();
         let (sin, cos) = sin_cos_of_turn(u1);
-        [radius * cos + v[0] * inv_length, radius * sin + v[1] * inv_length, z]
+        [radius * cos + x, radius * sin + y, height]
     }
 }

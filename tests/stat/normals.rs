@@ -218,7 +218,7 @@ fn wrong_marginals_of_all_normals_are_rejected() {
 }
 
 #[test]
-#[ignore = "long: about five minutes; see main.rs"]
+#[ignore = "long: about a quarter of an hour; see main.rs"]
 fn long_sample_d() {
     let mut cases = shape_invariant_cases::<f64>(&WIDTHS, &[1e-4, 0.05, 0.4]);
     cases.extend(shape_invariant_cases::<f32>(&WIDTHS, &[1e-3, 0.3]));
