@@ -29,7 +29,8 @@ pub(crate) fn lambda_beckmann(nu: f64) -> f64 {
 ///
 /// For n ≥ 0 with p = n + 2 − γ ≥ 0,
 /// (x + 1)^{γ−2} (x + A)^{−γ} ∝ Σₖ C(n, k) ∫ (t − A)^{p−1} (1 − t)^{γ−1+k} (x + t)^{−(k+2)} dt over [A, 1], A = α².
-/// With t = A + (1 − A)/(1 + e^{−s}) the strip is π wide: step ½ gives 16 digits.
+/// With t = A + (1 − A)/(1 + e^{−s}) the strip is π wide. Its poles are of order γ + p + n: step ½
+/// leaves 1e-13, step ¼ rounding alone.
 pub(crate) struct Mixture {
     components: Vec<Component>,
 }
@@ -60,7 +61,7 @@ impl Mixture {
         } else if p == 0.0 {
             mixture.push(n, a, 1.0 - a, 1.0);
         } else {
-            const STEP: f64 = 0.5;
+            const STEP: f64 = 0.25;
             // Where A is small, most of the mass is at t of the order of A: the tail is cut 40 beyond.
             let mut s = -((40.0 - a.ln()) / p / STEP).ceil() * STEP;
             while s < 40.0 / gamma {
