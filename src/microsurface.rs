@@ -174,7 +174,8 @@ impl<P: SampleVisibleProfile<M::Scalar>, M: Map> SampleVndf for Microsurface<P, 
 fn turned_into_view<T: Real>(w: [T; 3], m: [T; 3]) -> [T; 3] {
     let (w_m, length2) = (dot(w, m), dot(m, m));
     // 16ε|m| bounds the rounding of w·m, here and once more by whoever uses the sample: 3ε Σ|terms| ≤ 3√3 ε|m| each.
-    let edge = T::lit(256.0) * T::EPSILON * T::EPSILON * length2;
+    // Squares that are no normal numbers tell nothing.
+    let edge = T::lit(256.0) * T::EPSILON * T::EPSILON * length2 + T::MIN_POSITIVE;
     if w_m * w_m.abs() > edge {
         let inv_length = T::ONE / length2.sqrt();
         return m.map(|c| c * inv_length);

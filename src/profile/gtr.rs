@@ -103,6 +103,12 @@ pub trait Masking<T: Real>: Copy {
     /// [`Error::Gamma`] or [`Error::Parameter`] for a γ that this kind does not cover.
     fn new(alpha: T, gamma: T) -> Result<Self, Error>;
 
+    /// x^{−γ/2}, x ≥ 1: a kind for which γ is an integer has a shorter way than the power.
+    #[inline(always)]
+    fn root_of_power(x: T::Wide, gamma: T) -> T {
+        root_of_power(x, gamma)
+    }
+
     /// σ_P(s², z) for z ≥ 0.
     fn sigma_above(&self, s2: T, z: T) -> T;
 
@@ -114,7 +120,8 @@ impl<T: Real, K: Masking<T>> Profile<T> for Gtr<T, K> {
     #[inline(always)]
     fn d<M: Map<Scalar = T>>(&self, map: &M, m: [T; 3], length2: T) -> T {
         let (q, z2) = map.normal_terms_wide(m);
-        self.density.homogeneous(map.scale(), q, z2, length2)
+        let gamma = self.density.gamma;
+        self.density.homogeneous(map.scale(), q, z2, length2, |falloff| K::root_of_power(falloff, gamma))
     }
 
     #[inline(always)]
@@ -133,6 +140,12 @@ impl<T: Real, K: Masking<T>> SampleProfile<T> for Gtr<T, K> {
     fn sample_d(&self, u: [T; 2]) -> [T; 3] {
         self.density.sample(u)
     }
+}
+
+/// x^{−γ/2}.
+#[inline(always)]
+fn root_of_power<T: Real>(x: T::Wide, gamma: T) -> T {
+    pow_wide::<T>(x, -(T::HALF * gamma))
 }
 
 /// The density of GTR for any γ ≥ 0 and 0 < α ≤ 1, and normals drawn from it.
@@ -219,19 +232,27 @@ impl<T: Real> Density<T> {
     pub fn d(&self, wm: T::Vec3) -> T {
         let m: [T; 3] = wm.into();
         let [x, y, z] = m.map(T::widen);
-        let d = self.homogeneous(T::FRAC_1_PI, x * x + y * y, z * z, T::ONE);
+        let power = |falloff| root_of_power(falloff, self.gamma);
+        let d = self.homogeneous(T::FRAC_1_PI, x * x + y * y, z * z, T::ONE, power);
         if m[2] < T::ZERO { T::ZERO } else { d }
     }
 
-    /// `scale` `length2`² π c (z² + q)^{γ−2}/(q + α²z²)^γ.
+    /// `scale` `length2`² π c (z² + q)^{γ−2}/(q + α²z²)^γ, with the function that gives x^{−γ/2}.
     #[inline(always)]
-    fn homogeneous(&self, scale: T, q: T::Wide, z2: T::Wide, length2: T) -> T {
+    fn homogeneous(
+        &self,
+        scale: T,
+        q: T::Wide,
+        z2: T::Wide,
+        length2: T,
+        root_of_power: impl Fn(T::Wide) -> T,
+    ) -> T {
         let alpha = self.alpha.widen();
         let alpha2 = alpha * alpha;
         let sum = q + z2;
         let falloff = (q + alpha2 * z2) / (alpha2 * sum);
         // The root of the power: at α = 1e-6 and γ = 4 the power itself underflows in f32 where D does not.
-        let root = length2 / T::narrow(sum) * pow_wide::<T>(falloff, -(T::HALF * self.gamma));
+        let root = length2 / T::narrow(sum) * root_of_power(falloff);
         // The scale of a narrow map first: root² alone may overflow where D does not.
         (scale * self.peak) * root * root
     }

@@ -99,6 +99,10 @@ fn densities<T: Real>() {
             let mut worst = Worst::default();
             for columns in rows(NDF).filter(|c| c[0] == ndf && c[7] == near && !steep(c)) {
                 let wm = vector::<T>(&columns[4..7]);
+                if matches!(columns[3], "0" | "1" | "2" | "3" | "4") {
+                    let closed = with_surface::<T, _>(&columns, |surface| surface.d(wm));
+                    worst.add_relative(closed, number(columns[8]), &columns);
+                }
                 let d = if ndf == "gtr" {
                     let [alpha, gamma] = [1, 3].map(|i| T::lit(number(columns[i])));
                     Density::new(alpha, gamma).unwrap().d(wm)

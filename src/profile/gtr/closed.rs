@@ -57,6 +57,18 @@ impl<T: Real, const G: u8> Masking<T> for Closed<T, G> {
     }
 
     #[inline(always)]
+    fn root_of_power(x: T::Wide, _: T) -> T {
+        let inverse = T::Wide::ONE / x;
+        T::narrow(match G {
+            0 => T::Wide::ONE,
+            1 => inverse.sqrt(),
+            2 => inverse,
+            3 => inverse * inverse.sqrt(),
+            _ => inverse * inverse,
+        })
+    }
+
+    #[inline(always)]
     fn sigma_above(&self, s2: T, z: T) -> T {
         match G {
             0 => Ggx.sigma_above(s2, z),
