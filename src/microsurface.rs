@@ -176,17 +176,20 @@ fn turned_into_view<T: Real>(w: [T; 3], m: [T; 3]) -> [T; 3] {
     // 16ε|m| bounds the rounding of w·m, here and once more by whoever uses the sample: 3ε Σ|terms| ≤ 3√3 ε|m| each.
     // Squares that are no normal numbers tell nothing.
     let edge = T::lit(256.0) * T::EPSILON * T::EPSILON * length2 + T::MIN_POSITIVE;
-    if w_m * w_m.abs() > edge {
-        let inv_length = T::ONE / length2.sqrt();
-        return m.map(|c| c * inv_length);
-    }
-    turned_from_the_edge(w, m)
+    let (m, length2) = if w_m * w_m.abs() > edge {
+        (m, length2)
+    } else {
+        let m = turned_from_the_edge(w, m);
+        (m, dot(m, m))
+    };
+    let inv_length = T::ONE / length2.sqrt();
+    m.map(|c| c * inv_length)
 }
 
 /// The same for a facet near the edge of visibility, whose m may be the difference of two equal vectors.
 ///
 /// It is moved towards w to w·m of 8ε of the terms of the sum, and at least 2⁻⁶⁴ (f32) or 2⁻⁵¹² (f64) of the length
-/// where all terms vanish, before it is normalised.
+/// where all terms vanish. It is long enough for its square to be a number.
 #[inline(always)]
 fn turned_from_the_edge<T: Real>(w: [T; 3], m: [T; 3]) -> [T; 3] {
     let sum_of_magnitudes = |v: [T; 3]| v[0].abs() + v[1].abs() + v[2].abs();
@@ -204,5 +207,5 @@ fn turned_from_the_edge<T: Real>(w: [T; 3], m: [T; 3]) -> [T; 3] {
     // Along w, or along its horizontal part from below, so that no facet comes to look down.
     let towards = [w[0], w[1], positive_part(w[2])];
     let push = push / dot(towards, towards);
-    normalized([m[0] + push * towards[0], m[1] + push * towards[1], m[2] + push * towards[2]])
+    [m[0] + push * towards[0], m[1] + push * towards[1], m[2] + push * towards[2]]
 }
