@@ -22,7 +22,9 @@ pub extern "C" fn ggx_weight(alpha: f32, u: f32, v: f32) -> f32 {
 /// Beckmann in f64: f, or −1.
 #[unsafe(no_mangle)]
 pub extern "C" fn beckmann_eval(alpha: f64) -> f64 {
-    let (Ok(surface), Ok(fresnel)) = (Beckmann::isotropic(alpha), Dielectric::new(1.5_f64)) else { return -1.0 };
+    let (Ok(surface), Ok(fresnel)) = (Beckmann::isotropic(alpha), Dielectric::new(1.5_f64)) else {
+        return -1.0;
+    };
     RoughConductor::new(surface, fresnel).eval(DVec3::new(0.6, 0.0, 0.8), DVec3::new(0.0, 0.6, 0.8))
 }
 

@@ -1,0 +1,55 @@
+//! Positive definite matrices without cancellation, for constructors.
+
+use crate::Real;
+
+/// A symmetric positive definite matrix RᵀR with |det R|, the root of its determinant, known more precisely
+/// than from its entries.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Gram {
+    pub(crate) xx: f64,
+    pub(crate) xy: f64,
+    pub(crate) yy: f64,
+    pub(crate) root: f64,
+}
+
+impl Gram {
+    /// The larger and the smaller principal α: the roots of the eigenvalues.
+    pub(crate) fn principal(&self) -> [f64; 2] {
+        let half_difference = 0.5 * (self.xx - self.yy);
+        let radius = Real::sqrt(half_difference * half_difference + self.xy * self.xy);
+        let largest = Real::sqrt(0.5 * (self.xx + self.yy) + radius);
+        [largest, self.root / largest]
+    }
+
+    /// Both principal α are finite and within the range of the scalar. False for NaN.
+    pub(crate) fn in_range<T: Real>(&self) -> bool {
+        let (smallest, largest) = crate::roughness::alpha_range::<T>();
+        let [alpha_max, alpha_min] = self.principal();
+        // A relative slack of a few ε: an α at the very end of the range stays accepted after a rotation.
+        let slack = 1.0 + 8.0 * T::EPSILON.to_f64();
+        alpha_max <= largest.to_f64() * slack && alpha_min * slack >= smallest.to_f64()
+    }
+}
+
+/// a·b − c·d to about an ulp of the result, by exact products (Dekker 1971; Kahan's algorithm).
+pub(crate) fn difference_of_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
+    let (p, p_error) = two_product(a, b);
+    let (q, q_error) = two_product(c, d);
+    let difference = p - q;
+    // The rounding error of p − q, exactly (Knuth's two-sum), then those of the products.
+    let virtual_q = p - difference;
+    let error = (p - (difference + virtual_q)) + (virtual_q - q);
+    difference + (error + (p_error - q_error))
+}
+
+/// a·b as a rounded product and its exact error.
+fn two_product(a: f64, b: f64) -> (f64, f64) {
+    let halves = |x: f64| {
+        let t = 134217729.0 * x; // 2²⁷ + 1
+        let high = t - (t - x);
+        (high, x - high)
+    };
+    let product = a * b;
+    let ((a1, a2), (b1, b2)) = (halves(a), halves(b));
+    (product, ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2)
+}

@@ -1,0 +1,194 @@
+//! Any invertible map.
+
+use crate::Real;
+use crate::error::Error;
+use crate::map::gram::{Gram, difference_of_products};
+use crate::map::{Map, scale};
+use crate::roughness::RoughnessMatrix;
+
+/// Any invertible map, stored as the upper triangular R = M⁻¹ that has the same RᵀR.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "stored::Linear<T>", into = "stored::Linear<T>"))]
+#[cfg_attr(
+    feature = "serde",
+    serde(bound(
+        serialize = "T: Real + serde::Serialize",
+        deserialize = "T: Real + serde::Deserialize<'de>"
+    ))
+)]
+pub struct Linear<T> {
+    r11: T,
+    r12: T,
+    r22: T,
+    /// √(r22/r11), its inverse and r12/ρ: the unimodular part of Mᵀ is [[k, 0], [−shear, 1/k]].
+    k: T,
+    inv_k: T,
+    shear: T,
+    area: T,
+    scale: T,
+}
+
+impl<T: Real> Linear<T> {
+    /// The map whose inverse has the rows `r`: M = R⁻¹.
+    ///
+    /// # Errors
+    /// [`Error::Map`], with the determinant of M, unless R is finite and its singular values (the principal α)
+    /// are within [`alpha_range`](crate::roughness::alpha_range).
+    pub fn from_inverse(r: [[T; 2]; 2]) -> Result<Self, Error> {
+        let [[a, b], [c, d]] = r.map(|row| row.map(T::to_f64));
+        let det = difference_of_products(a, d, b, c);
+        let gram = Gram { xx: a * a + c * c, xy: a * b + c * d, yy: b * b + d * d, root: det.abs() };
+        if !gram.in_range::<T>() {
+            return Err(Error::Map { determinant: 1.0 / det });
+        }
+        Ok(Self::triangular(gram))
+    }
+
+    /// The map of a positive definite RᵀR: Cholesky's factor.
+    fn triangular(Gram { xx, xy, root, .. }: Gram) -> Self {
+        let r11 = Real::sqrt(xx);
+        let [r11, r12, r22] = [r11, xy / r11, root / r11].map(T::lit);
+        Self::stored(r11, r12, r22)
+    }
+
+    /// What follows from the three stored numbers, rounded once.
+    fn stored(r11: T, r12: T, r22: T) -> Self {
+        let [a, b, d] = [r11, r12, r22].map(T::to_f64);
+        let k = Real::sqrt(d / a);
+        Self {
+            r11,
+            r12,
+            r22,
+            k: T::lit(k),
+            inv_k: T::lit(1.0 / k),
+            shear: T::lit(b / Real::sqrt(a * d)),
+            area: T::lit(a * d),
+            scale: scale(r11, r22),
+        }
+    }
+
+    /// R⁻¹ applied first, then `matrix` given by columns: the map `matrix`·M.
+    fn followed_by(r: [[T; 2]; 2], columns: [[T; 2]; 2]) -> Result<Self, Error> {
+        let [[m11, m21], [m12, m22]] = columns.map(|column| column.map(T::to_f64));
+        let [[a, b], [c, d]] = r.map(|row| row.map(T::to_f64));
+        let det = difference_of_products(m11, m22, m12, m21);
+        // R M⁻¹ = R adj(M)/det M. Its Gram matrix is formed in f64 before anything is rounded.
+        let row = |p: f64, q: f64| {
+            [difference_of_products(p, m22, q, m21) / det, difference_of_products(q, m11, p, m12) / det]
+        };
+        let ([a, b], [c, d]) = (row(a, b), row(c, d));
+        let gram = Gram {
+            xx: a * a + c * c,
+            xy: a * b + c * d,
+            yy: b * b + d * d,
+            root: (determinant(r) / det).abs(),
+        };
+        if !gram.in_range::<T>() {
+            return Err(Error::Map { determinant: det });
+        }
+        Ok(Self::triangular(gram))
+    }
+}
+
+/// The determinant of an upper triangular matrix.
+fn determinant<T: Real>(r: [[T; 2]; 2]) -> f64 {
+    r[0][0].to_f64() * r[1][1].to_f64()
+}
+
+/// `matrix`·M for any map M: the microsurface of M, moved by `matrix`.
+pub(crate) fn moved<M: Map>(map: &M, matrix: <M::Scalar as Real>::Mat2) -> Result<Linear<M::Scalar>, Error> {
+    Linear::followed_by(map.inverse(), <M::Scalar as Real>::columns(matrix))
+}
+
+impl<T: Real> From<RoughnessMatrix<T>> for Linear<T> {
+    #[inline]
+    fn from(matrix: RoughnessMatrix<T>) -> Self {
+        Self::triangular(matrix.gram())
+    }
+}
+
+impl<T: Real> Map for Linear<T> {
+    type Scalar = T;
+    type Stretched = Self;
+
+    #[inline(always)]
+    fn scale(&self) -> T {
+        self.scale
+    }
+
+    #[inline(always)]
+    fn normal_terms(&self, [x, y, z]: [T; 3]) -> (T, T) {
+        let (a, b) = (self.k * x, self.inv_k * y - self.shear * x);
+        (a * a + b * b, self.area * (z * z))
+    }
+
+    #[inline(always)]
+    fn normal_terms_wide(&self, m: [T; 3]) -> (T::Wide, T::Wide) {
+        let [x, y, z] = m.map(T::widen);
+        let (r11, r12, r22) = (self.r11.widen(), self.r12.widen(), self.r22.widen());
+        let area = r11 * r22;
+        let (a, b) = (r22 * x, r11 * y - r12 * x);
+        ((a * a + b * b) / area, area * (z * z))
+    }
+
+    #[inline(always)]
+    fn direction_term(&self, [x, y, _]: [T; 3]) -> T {
+        let (a, b) = (self.r11 * x + self.r12 * y, self.r22 * y);
+        a * a + b * b
+    }
+
+    #[inline(always)]
+    fn direction_term_wide(&self, w: [T; 3]) -> T::Wide {
+        let [x, y, _] = w.map(T::widen);
+        let (a, b) = (self.r11.widen() * x + self.r12.widen() * y, self.r22.widen() * y);
+        a * a + b * b
+    }
+
+    #[inline(always)]
+    fn pull_direction(&self, [x, y, z]: [T; 3]) -> [T; 3] {
+        [self.r11 * x + self.r12 * y, self.r22 * y, z]
+    }
+
+    #[inline(always)]
+    fn push_normal(&self, [x, y, z]: [T; 3]) -> [T; 3] {
+        [self.r11 * x, self.r12 * x + self.r22 * y, z]
+    }
+
+    #[inline]
+    fn inverse(&self) -> [[T; 2]; 2] {
+        [[self.r11, self.r12], [T::ZERO, self.r22]]
+    }
+
+    #[inline]
+    fn stretched(&self, scale_x: T, scale_y: T) -> Result<Self, Error> {
+        Self::from_inverse([[self.r11 / scale_x, self.r12 / scale_y], [T::ZERO, self.r22 / scale_y]])
+    }
+}
+
+#[cfg(feature = "serde")]
+mod stored {
+    //! What is serialised: the numbers given, so that deserialising checks them again.
+    use super::Real;
+    use crate::error::Error;
+
+    #[derive(serde::Serialize, serde::Deserialize)]
+    pub(super) struct Linear<T> {
+        r11: T,
+        r12: T,
+        r22: T,
+    }
+    impl<T: Real> From<super::Linear<T>> for Linear<T> {
+        fn from(map: super::Linear<T>) -> Self {
+            Self { r11: map.r11, r12: map.r12, r22: map.r22 }
+        }
+    }
+    impl<T: Real> TryFrom<Linear<T>> for super::Linear<T> {
+        type Error = Error;
+        fn try_from(map: Linear<T>) -> Result<Self, Error> {
+            // Checks, then keeps the three numbers as they were: a round trip changes no bit.
+            Self::from_inverse([[map.r11, map.r12], [T::ZERO, map.r22]])?;
+            Ok(Self::stored(map.r11.abs(), map.r12, map.r22.abs()))
+        }
+    }
+}
