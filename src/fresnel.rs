@@ -153,6 +153,13 @@ impl<S: Spectrum> Fresnel for Schlick<S> {
 /// F = ½(r_s² + r_p²); 1 where g² < 0, total internal reflection. These forms keep all digits when η is near 1,
 /// where (cos − g)/(cos + g) loses them; at η = 1 exactly F = 0.
 ///
+/// # Accuracy
+/// Absolute: 5 ε (f32), 3 ε (f64), worst just above the critical angle, of arguments taken as exact (budget row
+/// `fresnel_dielectric`). There F has an infinite slope: in f64, rounding the cosine itself moves it by √ε.
+///
+/// # Special cases
+/// η = 1 → 0 at every angle.
+///
 /// # Example
 /// ```
 /// use microsurface::fresnel::{Dielectric, Fresnel};
@@ -241,6 +248,10 @@ impl<S: Spectrum> Fresnel for Dielectric<S> {
 ///
 /// With a² + b² = |ε − sin²|, a the real part of √(ε − sin²), ε = (n + ik)²:
 /// R_s = ((a − cos)² + b²)/((a + cos)² + b²) and R_p = R_s ((a cos − sin²)² + b² cos²)/((a cos + sin²)² + b² cos²).
+///
+/// # Accuracy
+/// Absolute: 2.4 ε, worst for weak absorbers at grazing angles (budget row `fresnel_conductor`). At k = 0 it is a
+/// [`Dielectric`].
 ///
 /// # Example
 /// Copper reflects red.

@@ -7,6 +7,11 @@ use crate::map::{Map, scale};
 use crate::roughness::RoughnessMatrix;
 
 /// Any invertible map, stored as the upper triangular R = M⁻¹ that has the same RᵀR.
+///
+/// # Accuracy
+/// R is computed in f64 and rounded once; the surface of the rounded R is then as accurate as an axis-aligned one, but
+/// for the difference in Mᵀm: with κ the ratio of the principal α, D of a given matrix is relatively uncertain by
+/// about κ ε in the direction of the smaller α. Ratios of 1/ε and more (8e6 for f32) build, and are meaningless.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "stored::Linear<T>", into = "stored::Linear<T>"))]

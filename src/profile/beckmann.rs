@@ -22,6 +22,15 @@ use crate::profile::{Profile, SampleProfile, SampleVisibleProfile, shape_invaria
 /// exponent is a relative error δ of the result: at five times α, rounding the exponent to f32 alone would cost
 /// 2e-6. D underflows to 0 far out, gradually.
 ///
+/// # Accuracy
+/// Relative, in units of ε of the scalar, f32 / f64 (budget rows `beckmann_*`):
+/// - D 4.6 / 31 where the exponent is at most 26, 0.1 / 0.9 times the exponent beyond: in f64 the exponent's own rounding;
+/// - σ above the horizon 2.9 / 2.2, below it 1.9 (1 + a²);
+/// - Λ 3.4 / 22 where a² ≤ 26, 0.12 / 1.1 times a² beyond; G1 3.2 / 2.1 everywhere.
+///
+/// Visible normals: the slope along the view is the exact inverse of its distribution to 3e-8 (f32) or 2e-15 (f64) in u,
+/// at worst; both slopes are monotone in their random numbers, for f32 ulp by ulp.
+///
 /// # Example
 /// ```
 /// use microsurface::{Beckmann, Ndf, glam::DVec3};

@@ -13,6 +13,11 @@ use crate::profile::{Profile, SampleProfile, SampleVisibleProfile, shape_invaria
 /// D is formed from wm.x, wm.y and α rather than from 1 − wm.z², which in f32 is wrong by a factor 47 at α = 1e-4.
 /// Λ is t/(2(1 + √(1 + t))), t = wᵀAw/w.z²: the textbook's (√(1 + t) − 1)/2 is 0 in f32 for t < 1e-7.
 ///
+/// # Accuracy
+/// Relative, in units of ε of the scalar, f32 / f64: D 4.9 / 3.4, σ 1.6 / 1.2 on the whole sphere, Λ 2 / 1.8, G1 1.7 / 1.4
+/// (budget rows `ggx_*`); in f32 that is 5.9e-7 for D, at an aspect ratio of 0.1 and θ ≈ 3α. Under a [`Linear`](crate::Linear)
+/// map D also loses what [`Linear`](crate::Linear) says.
+///
 /// # Example
 /// ```
 /// use microsurface::{Ggx, Ndf, glam::DVec3};

@@ -34,6 +34,13 @@ use crate::roughness::checked;
 /// The power is taken of (q/α² + z²)/(q + z²) ∈ [1, 1/α²], formed in f64, and scaled by the density at the pole, so
 /// that nothing overflows for any γ. γ − 1 enters only through y/(eʸ − 1) with y = (γ − 1) ln α².
 ///
+/// The product of α and the width of the map wants to stay within [`alpha_range`](crate::roughness::alpha_range), which
+/// constructors check of each alone: below it, G2 of denormal cosines can be NaN.
+///
+/// # Accuracy
+/// Relative, in units of ε of the scalar, f32 / f64 (budget rows `gtr_*`): D 4.2 / 12 for γ up to 10, the worst where the
+/// power is steepest; exact masks: σ 4 / 3.8, Λ 4.9 / 5.2, G1 4.5 / 3.3.
+///
 /// # References
 /// Burley 2012, "Physically-based shading at Disney", Appendix B; Dimov 2015; Atanasov, Koylazov, Dimov and
 /// Wilkie 2022, Eqs. 32–39.

@@ -1,6 +1,6 @@
 //! The elementary functions against 50-digit values (f64), and f32 against f64.
 //!
-//! All 2³² f32 numbers of every function (about half an hour; with `STRIDE=64` in the environment every 64th):
+//! All 2³² f32 numbers of every function (more than an hour on one core; with `STRIDE=64` in the environment every 64th):
 //! `cargo test --release --test it elementary::every_f32 -- --ignored --nocapture`
 #![expect(
     clippy::cast_possible_truncation,
@@ -286,7 +286,7 @@ fn inverses_invert() {
 }
 
 #[test]
-#[ignore = "all f32 numbers: minutes"]
+#[ignore = "all f32 numbers: over an hour"]
 fn every_f32() {
     let stride = std::env::var("STRIDE").map_or(1, |stride| stride.parse().expect("a number"));
     let mut failures = Vec::new();
