@@ -188,5 +188,6 @@ pub(super) fn square<T: Real>(x: T) -> (T, T) {
     let x = x.abs();
     let x = if x > far { far } else { x };
     let upper = x.upper_half();
-    (upper * upper, (x - upper) * (x + upper))
+    // The upper half of a NaN may be ∞, but not with its product added.
+    (upper * upper + T::ZERO * x, (x - upper) * (x + upper))
 }

@@ -188,8 +188,16 @@ fn wide_arguments_are_used_to_all_digits() {
 
 #[test]
 fn nan_gives_nan() {
+    // Also those whose digits are all in the lower half.
+    let singles = [f32::NAN, -f32::NAN, f32::from_bits(0x7f80_0001), f32::from_bits(0xff80_0100)];
+    let doubles = [f64::NAN, f64::from_bits(0x7ff0_0000_0000_0001), f64::from_bits(0xfff0_0000_0010_0000)];
     for budget in BUDGET {
-        assert!((budget.double)(f64::NAN, 1.0).is_nan() && (budget.single)(f32::NAN, 1.0).is_nan());
+        for x in doubles {
+            assert!((budget.double)(x, 1.0).is_nan(), "{}", budget.name);
+        }
+        for x in singles {
+            assert!((budget.single)(x, 1.0).is_nan(), "{}", budget.name);
+        }
     }
     assert!(e::pow_wide(1.5, f64::NAN).is_nan() && e::pow_wide(1.5, f32::NAN).is_nan());
     assert!(e::pow_wide(f64::NAN, 0.0_f64).is_nan() && e::pow_wide(f64::NAN, 0.0_f32).is_nan());
@@ -296,7 +304,13 @@ fn every_f32() {
             let x = f32::from_bits(bits);
             single(&mut worst, (x, 0.0), (budget.single)(x, 0.0), (budget.double)(f64::from(x), 0.0));
         }
-        worst.check(budget.name, budget.f32, &mut failures);
+        if stride == 1 {
+            worst.check(budget.name, budget.f32, &mut failures);
+        } else {
+            // Some of the numbers need not hold the worst one.
+            println!("{:22} {:6.3} ulp", budget.name, worst.ulp);
+            assert!(worst.ulp <= budget.f32.0, "{}: {} ulp", budget.name, worst.ulp);
+        }
     }
     assert!(failures.is_empty(), "{failures:#?}");
 }
