@@ -22,11 +22,6 @@
 //! | [`erfc`], [`erfcx`] | 1 | 0 | an exponential |
 //! | [`erf_inv`], [`erfc_inv`] | 2 | 1 | a logarithm |
 
-#![expect(
-    clippy::inline_always,
-    reason = "a loop over a slice vectorises only if everything within it is inlined"
-)]
-
 mod erf;
 mod erf_inv;
 mod erfcx;

@@ -84,7 +84,7 @@ pub fn ln<T: Real>(x: T) -> T {
 /// As [`ln`].
 ///
 /// # Accuracy
-/// For f32 ≤ 2^⁻³⁷ relative, for f64 as [`ln`].
+/// For f32 ≤ 2⁻³⁷ relative, for f64 as [`ln`].
 ///
 /// # Example
 /// ```

@@ -34,9 +34,10 @@ use crate::profile::gtr::{Gtr, Masking, range_and_log};
 pub struct Closed<T, const G: u8> {
     /// α².
     alpha2: T,
-    /// γ = 1: 1 − α² and 1/ln α².  γ = 3, 4: the weights of b = 2 and b = 3.
+    /// γ = 1: 1 − α² and 1/ln α².  γ = 3, 4: the weights of b = 2, b = 3 and, for γ = 4, b = 4.
     first: T,
     second: T,
+    third: T,
 }
 
 impl<T: Real, const G: u8> Masking<T> for Closed<T, G> {
@@ -53,7 +54,9 @@ impl<T: Real, const G: u8> Masking<T> for Closed<T, G> {
             4 => (3.0 * t * t / (1.0 + t + t * t), 3.0 * t * range / (1.0 + t + t * t)),
             _ => (1.0, 0.0),
         };
-        Ok(Self { alpha2: T::lit(t), first: T::lit(first), second: T::lit(second) })
+        let (first, second) = (T::lit(first), T::lit(second));
+        // From the rounded two, so that the weights sum to 1.
+        Ok(Self { alpha2: T::lit(t), first, second, third: T::ONE - first - second })
     }
 
     #[inline(always)]
@@ -92,8 +95,7 @@ impl<T: Real, const G: u8> Masking<T> for Closed<T, G> {
             2 => Ggx.sigma_backfacing(scaled, z),
             3 => e * (T::HALF * self.first + T::lit(0.25) * self.second * e_over_r),
             _ => {
-                let third = T::ONE - self.first - self.second;
-                let b4 = third * (e_over_r * e_over_r) * (T::lit(3.0) + z / r);
+                let b4 = self.third * (e_over_r * e_over_r) * (T::lit(3.0) + z / r);
                 e * (T::HALF * self.first + T::lit(0.25) * self.second * e_over_r + T::lit(1.0 / 16.0) * b4)
             }
         }

@@ -41,7 +41,8 @@ fn worst_of_table<T: Real<Wide = f64>>() -> f64 {
         // the density is nearly linear in w beside ν
         let (_, density) = view.distribution(xi, view.b * (w + 0.5 * error), fit::<f64>());
         let difference = error * density / view.total;
-        assert!(difference < 1e-7, "nu = {nu}, u = {u:e}: off by {error:e}, {difference:e} of u");
+        // The step of an f32 u below 1; the tests assert far less of the worst.
+        assert!(difference < f64::from(f32::EPSILON), "nu = {nu}, u = {u:e}: off by {error:e}");
         worst = worst.max(difference);
     }
     worst
@@ -99,7 +100,8 @@ fn known_inverses() {
         assert!((visible_slope(0.0, u) + (-ln(u)).sqrt()).abs() < 8.0 * f64::EPSILON, "{u}");
         for nu in [f64::INFINITY, 1e300] {
             let error = (visible_slope(nu, u) + erfc_inv(2.0 * u)).abs();
-            assert!(error < 1e-13, "{u}: {error:e}");
+            // 9.3e-15: in the tails x moves by the rounding of u over the density.
+            assert!(error < 1.8e-14, "{u}: {error:e}");
         }
     }
 }
