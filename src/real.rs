@@ -207,10 +207,10 @@ pub(crate) mod construction {
     from_std_or_libm! {
         /// Natural logarithm.
         ln, ln, log;
+        /// Exponential.
+        exp, exp, exp;
         /// eˣ − 1 without cancellation.
         exp_m1, exp_m1, expm1;
-        /// ln(1 + x) without cancellation.
-        ln_1p, ln_1p, log1p;
         /// Sine.
         sin, sin, sin;
         /// Cosine.

@@ -105,6 +105,16 @@ pub fn exp_wide<T: Real>(x: T::Wide) -> T {
     if vanishes { T::ZERO } else { T::narrow(scale(y, n)) }
 }
 
+/// eˣ in `T` of an |x| ≤ 700 in f64.
+#[inline(always)]
+pub(super) fn exp_of_normal_range<T: Real>(x: T::Wide) -> T {
+    let n = round(x * T::Wide::lit(core::f64::consts::LOG2_E));
+    let r = x - n * T::Wide::lit(core::f64::consts::LN_2);
+    let s = T::narrow(r);
+    let y = T::Wide::ONE + (r + (s * s * polynomial(s, T::EXP)).widen());
+    T::narrow(y * n.exp2_of_integer())
+}
+
 /// eˣ − 1, accurate relative to itself also near 0.
 ///
 /// # Domain

@@ -3,9 +3,9 @@
 //! x = m·2ᵏ with √½ ≤ m < √2, f = m − 1, s = f/(2 + f): ln m = ln((1+s)/(1−s)) = f − s·(f − s²·P(s²)), and the
 //! first f is split off half its square so that little is lost to rounding (fdlibm's arrangement).
 
-use super::exp::exp_of_sum;
+use super::exp::{exp_of_normal_range, exp_of_sum};
 use super::exp_wide;
-use super::kernel::polynomial;
+use super::kernel::{Kernel, polynomial};
 use crate::real::Real;
 
 /// ⅔ as a sum whose first term has half the digits of an f64.
@@ -169,6 +169,31 @@ pub fn pow_wide<T: Real>(x: T::Wide, g: T) -> T {
     // 0⁰ = ∞⁰ = 1
     let one = if x >= T::Wide::ZERO { T::ONE } else { T::lit(f64::NAN) };
     if g == T::ZERO { one } else { y }
+}
+
+/// (numerator/denominator)^−g, for positive normal numbers in f64 and g ≥ 0, which spares a division and what only
+/// zeros, denormals and NaN need; |g·ln| of the ratio is at most 700.
+///
+/// With the quotient q of the fractions within [√½, √2], ln q = 2 artanh s, s = (q−1)/(q+1).
+#[inline(always)]
+pub(crate) fn inverse_power_of_ratio<T: Real>(numerator: T::Wide, denominator: T::Wide, g: T) -> T {
+    if !T::WIDENS {
+        return pow_wide(numerator / denominator, -g);
+    }
+    let (n, k_n) = numerator.split_exponent();
+    let (d, k_d) = denominator.split_exponent();
+    let (half, root) = (T::Wide::HALF, T::Wide::lit(core::f64::consts::SQRT_2));
+    // Of fractions within [√½, √2) the quotient is within (½, 2).
+    let (above, below) = (n > root * d, d > root * n);
+    let n = if above { half * n } else { n };
+    let d = if below { half * d } else { d };
+    let one = T::Wide::ONE;
+    let k = (k_n - k_d) + if above { one } else { T::Wide::ZERO } - if below { one } else { T::Wide::ZERO };
+    let s = (n - d) / (n + d);
+    let z = s * s;
+    let two = T::Wide::TWO;
+    let ln = k * T::Wide::lit(core::f64::consts::LN_2) + s * (two + z * polynomial(z, T::LN_WIDE));
+    exp_of_normal_range::<T>(-g.widen() * ln)
 }
 
 /// x^g where no wider scalar is at hand: the logarithm and its product are carried as sums of two.

@@ -4,31 +4,46 @@
 //! distribution, and γ = 0 or α = 1 does not depend on the angle. It is not shape-invariant: α and the map are
 //! different things, and a stretched GTR is no GTR of another α.
 //!
-//! The density ([`Density`]) is one formula for every γ; masking comes in kinds, the second parameter of [`Gtr`]:
-//! [`Closed<G>`](closed::Closed), exact for the integers 0 … 4, and [`Spline`](spline::Spline), the papers'
-//! interpolation between them.
+//! The density ([`Density`]) is one formula for every γ. What the papers leave open, its mask and its visible normals,
+//! follows from one fact: GTR is a positive mixture, over widths between α and 1, of GGX (γ ≤ 2) or of GTR of the next
+//! integer exponent, and areas and visible normals of a mixture are those of its components. Masking comes in
+//! kinds, the second parameter of [`Gtr`]:
+//!
+//! | constructor | γ | max \|ΔG1\| | kind, and what it holds |
+//! |---|---|---|---|
+//! | [`Gtr::isotropic`] | 0 … 10 | 8e-6 | [`Mixture`](mixture::Mixture): 8 nodes, and components to sample visible normals fast |
+//! | [`Gtr::with_nodes`] | 0 … 10 | 1e-3 … 1e-7 | the same with another number of nodes |
+//! | [`Gtr::heavy_tailed`] | 0 … 2 | 1e-3 … 1e-7 | [`GgxNodes`](nodes::GgxNodes): nodes alone, no branch |
+//! | [`GtrTable`](table::GtrTable) | 0 … 10 | 4e-5 | nodes interpolated in α, for textures |
+//! | [`Gtr::closed`] | 0, 1, …, 10 | rounding | [`Closed`](closed::Closed): nothing is paid for other γ |
+//! | [`Gtr::spline`] | 0 … 4 | 0.34 | [`Spline`](spline::Spline): the papers' interpolation, for comparison |
+//!
+//! All but the spline can draw visible normals, with the density D_w of D itself.
 
 pub mod closed;
+pub mod components;
+mod gauss;
+mod integer;
+mod measure;
+pub mod mixture;
+pub mod nodes;
 pub mod spline;
+pub mod table;
+mod visible;
 
 use crate::Real;
-use crate::elementary::{exp_m1, ln_1p, pow_wide, sin_cos_of_turn};
+use crate::elementary::{exp_m1, inverse_power_of_ratio, ln, ln_1p, sin_cos_of_turn};
 use crate::error::Error;
 use crate::map::{Isotropic, Map};
 use crate::microsurface::Microsurface;
-use crate::profile::{Profile, SampleProfile};
-use crate::real::construction;
+use crate::profile::gtr::components::Components;
+use crate::profile::{Profile, SampleProfile, SampleVisibleProfile};
 use crate::roughness::checked;
 
 /// GTR slopes with the masking of kind `K`.
 ///
 /// D = c/(α² wm.z² + wm.x² + wm.y²)^γ with c = (γ−1)(α²−1)/(π(1 − α^{2−2γ})), whose limits at γ = 1 and α = 1 are
 /// reached smoothly; under a map, c (z² + q)^{γ−2}/(q + α² z²)^γ, see [`crate::profile`].
-///
-/// | constructor | masking | for |
-/// |---|---|---|
-/// | [`Gtr::closed::<G>`](Gtr::closed) | exact | integer γ: nothing is paid for the others |
-/// | [`Gtr::spline`] | the papers' interpolation | comparison with V-Ray; errors in [`spline`] |
 ///
 /// # Numerics
 /// The power is taken of (q/α² + z²)/(q + z²) ∈ [1, 1/α²], formed in f64, and scaled by the density at the pole, so
@@ -39,7 +54,7 @@ use crate::roughness::checked;
 ///
 /// # Accuracy
 /// Relative, in units of ε of the scalar, f32 / f64 (budget rows `gtr_*`): D 4.2 / 12 for γ up to 10, the worst where the
-/// power is steepest; exact masks: σ 4 / 3.8, Λ 4.9 / 5.2, G1 4.5 / 3.3.
+/// power is steepest; closed masks for γ ≤ 4: σ 3.2 / 3.2, Λ 4.9 / 4.2, G1 2.4 / 3.5, for γ ≤ 10 about twice that.
 ///
 /// # References
 /// Burley 2012, "Physically-based shading at Disney", Appendix B; Dimov 2015; Atanasov, Koylazov, Dimov and
@@ -92,7 +107,7 @@ impl<T: Real, K> Gtr<T, K> {
 impl<T: Real, K: Masking<T>> Gtr<T, K> {
     fn new(alpha: T, gamma: T) -> Result<Self, Error> {
         // The mask first: its range of γ is the narrower, and the one an error should name.
-        let masking = K::new(checked(alpha)?, gamma)?;
+        let masking = K::new(width(alpha)?, gamma)?;
         Ok(Self { density: Density::new(alpha, gamma)?, masking })
     }
 
@@ -110,10 +125,10 @@ pub trait Masking<T: Real>: Copy {
     /// [`Error::Gamma`] or [`Error::Parameter`] for a γ that this kind does not cover.
     fn new(alpha: T, gamma: T) -> Result<Self, Error>;
 
-    /// x^{−γ/2}, x ≥ 1: a kind for which γ is an integer has a shorter way than the power.
+    /// (n/d)^{−γ/2}, n ≥ d: a kind for which γ is an integer has a shorter way than the power.
     #[inline(always)]
-    fn root_of_power(x: T::Wide, gamma: T) -> T {
-        root_of_power(x, gamma)
+    fn root_of_power(n: T::Wide, d: T::Wide, gamma: T) -> T {
+        root_of_power(n, d, gamma)
     }
 
     /// σ_P(s², z) for z ≥ 0.
@@ -128,7 +143,7 @@ impl<T: Real, K: Masking<T>> Profile<T> for Gtr<T, K> {
     fn d<M: Map<Scalar = T>>(&self, map: &M, m: [T; 3], length2: T) -> T {
         let (q, z2) = map.normal_terms_wide(m);
         let gamma = self.density.gamma;
-        self.density.homogeneous(map.scale(), q, z2, length2, |falloff| K::root_of_power(falloff, gamma))
+        self.density.homogeneous(map.scale(), q, z2, length2, |n, d| K::root_of_power(n, d, gamma))
     }
 
     #[inline(always)]
@@ -149,10 +164,28 @@ impl<T: Real, K: Masking<T>> SampleProfile<T> for Gtr<T, K> {
     }
 }
 
-/// x^{−γ/2}.
+/// A kind of mask that is the exact one of its density, so that visible normals have a density.
+pub trait VisibleMasking<T: Real>: Masking<T> {
+    /// A normal visible from `v`, of the profile itself (map I), of any length.
+    ///
+    /// From the [`Components`] of α and γ, made on the spot unless the kind keeps them.
+    #[inline]
+    fn sample_visible(&self, alpha: T, gamma: T, v: [T; 3], u: [T; 2]) -> [T; 3] {
+        Components::of(alpha.to_f64(), gamma.to_f64()).sample_visible(v, u)
+    }
+}
+
+impl<T: Real, K: VisibleMasking<T>> SampleVisibleProfile<T> for Gtr<T, K> {
+    #[inline(always)]
+    fn sample_visible(&self, v: [T; 3], u: [T; 2]) -> [T; 3] {
+        self.masking.sample_visible(self.density.alpha, self.density.gamma, v, u)
+    }
+}
+
+/// (n/d)^{−γ/2}.
 #[inline(always)]
-fn root_of_power<T: Real>(x: T::Wide, gamma: T) -> T {
-    pow_wide::<T>(x, -(T::HALF * gamma))
+fn root_of_power<T: Real>(n: T::Wide, d: T::Wide, gamma: T) -> T {
+    inverse_power_of_ratio(n, d, T::HALF * gamma)
 }
 
 /// The density of GTR for any γ ≥ 0 and 0 < α ≤ 1, and normals drawn from it.
@@ -190,10 +223,19 @@ const LIMIT_EXCESS: f64 = 8.673617379884035e-19;
 /// α^{2γ−2} and its inverse are representable in f64 up to this exponent.
 const LARGEST_EXPONENT: f64 = 700.0;
 
+/// α, checked.
+///
+/// # Errors
+/// [`Error::Alpha`] or [`Error::AlphaAboveOne`] unless 0 < α ≤ 1.
+fn width<T: Real>(alpha: T) -> Result<T, Error> {
+    let alpha = checked(alpha)?;
+    if alpha > T::ONE { Err(Error::AlphaAboveOne { value: alpha.to_f64() }) } else { Ok(alpha) }
+}
+
 /// 1 − α² and ln α². α = 1 counts as the next smaller width, whose distribution differs by its rounding.
 pub(crate) fn range_and_log(alpha: f64) -> (f64, f64) {
     let range = ((1.0 - alpha) * (1.0 + alpha)).max(f64::EPSILON);
-    let log = if alpha < 0.5 { 2.0 * construction::ln(alpha) } else { construction::ln_1p(-range) };
+    let log = if alpha < 0.5 { 2.0 * ln(alpha) } else { ln_1p(-range) };
     (range, log)
 }
 
@@ -204,19 +246,25 @@ impl<T: Real> Density<T> {
     /// [`Error::Alpha`] or [`Error::AlphaAboveOne`] unless 0 < α ≤ 1, [`Error::Gamma`] unless γ ≥ 0 and
     /// |γ − 1| ≤ 700/|ln α²|: at least 10 for every α ≥ 1e-16.
     pub fn new(alpha: T, gamma: T) -> Result<Self, Error> {
-        let alpha = checked(alpha)?;
+        let alpha = width(alpha)?;
+        Self::of_log(alpha, gamma, range_and_log(alpha.to_f64()))
+    }
+
+    /// The same of a width that has been checked, with its 1 − α² and ln α².
+    pub(super) fn of_log(alpha: T, gamma: T, (range, log): (f64, f64)) -> Result<Self, Error> {
         let (a, g) = (alpha.to_f64(), gamma.to_f64());
-        if a > 1.0 {
-            return Err(Error::AlphaAboveOne { value: a });
-        }
-        let (range, log) = range_and_log(a);
         let excess = if (g - 1.0).abs() < LIMIT_EXCESS { LIMIT_EXCESS } else { g - 1.0 };
         let y = excess * log;
         if !(g >= 0.0 && y.abs() <= LARGEST_EXPONENT) {
             return Err(Error::Gamma { value: g, largest: 1.0 - LARGEST_EXPONENT / log });
         }
-        let to_horizon = construction::exp_m1(y);
-        let peak = range / -log * (y / to_horizon) / (a * a);
+        // e^−|y| − 1 = −p/(1 + p) of p = e^|y| − 1.
+        let growth = exp_m1(y.abs());
+        let decay = -growth / (1.0 + growth);
+        let (to_horizon, to_pole) = if y > 0.0 { (growth, decay) } else { (decay, growth) };
+        let inv_range = 1.0 / range;
+        let alpha2 = a * a;
+        let peak = range * y / (to_horizon * (-log * alpha2));
         let wide = T::Wide::lit;
         Ok(Self {
             alpha,
@@ -224,9 +272,9 @@ impl<T: Real> Density<T> {
             peak: T::lit(peak),
             inv_one_minus_gamma: wide(-1.0 / excess),
             to_horizon: wide(to_horizon),
-            to_pole: wide(construction::exp_m1(-y)),
-            inv_range: wide(1.0 / range),
-            scaled_range: wide(a * a / range),
+            to_pole: wide(to_pole),
+            inv_range: wide(inv_range),
+            scaled_range: wide(alpha2 * inv_range),
         })
     }
 
@@ -239,12 +287,12 @@ impl<T: Real> Density<T> {
     pub fn d(&self, wm: T::Vec3) -> T {
         let m: [T; 3] = wm.into();
         let [x, y, z] = m.map(T::widen);
-        let power = |falloff| root_of_power(falloff, self.gamma);
+        let power = |n, d| root_of_power(n, d, self.gamma);
         let d = self.homogeneous(T::FRAC_1_PI, x * x + y * y, z * z, T::ONE, power);
         if m[2] < T::ZERO { T::ZERO } else { d }
     }
 
-    /// `scale` `length2`² π c (z² + q)^{γ−2}/(q + α²z²)^γ, with the function that gives x^{−γ/2}.
+    /// `scale` `length2`² π c (z² + q)^{γ−2}/(q + α²z²)^γ, with the function that gives (n/d)^{−γ/2}.
     #[inline(always)]
     fn homogeneous(
         &self,
@@ -252,14 +300,13 @@ impl<T: Real> Density<T> {
         q: T::Wide,
         z2: T::Wide,
         length2: T,
-        root_of_power: impl Fn(T::Wide) -> T,
+        root_of_power: impl Fn(T::Wide, T::Wide) -> T,
     ) -> T {
         let alpha = self.alpha.widen();
         let alpha2 = alpha * alpha;
         let sum = q + z2;
-        let falloff = (q + alpha2 * z2) / (alpha2 * sum);
         // The root of the power: at α = 1e-6 and γ = 4 the power itself underflows in f32 where D does not.
-        let root = length2 / T::narrow(sum) * root_of_power(falloff);
+        let root = length2 / T::narrow(sum) * root_of_power(q + alpha2 * z2, alpha2 * sum);
         // The scale of a narrow map first: root² alone may overflow where D does not.
         (scale * self.peak) * root * root
     }

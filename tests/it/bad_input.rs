@@ -215,6 +215,8 @@ fn surfaces<T: Scalar>() -> Vec<Surface<T>> {
         Shape::Gtr { alpha: 0.3, gamma: 0 },
         Shape::Gtr { alpha: 0.3, gamma: 1 },
         Shape::Gtr { alpha: 0.3, gamma: 4 },
+        Shape::Mixture { alpha: 0.3, gamma: 1.5 },
+        Shape::Mixture { alpha: 0.3, gamma: 3.5 },
         Shape::Spline { alpha: 0.3, gamma: 1.5 },
     ] {
         for widths in [

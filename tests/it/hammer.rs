@@ -60,6 +60,14 @@ impl Random {
         }
     }
 
+    fn gamma(&mut self) -> f64 {
+        match self.below(4) {
+            0 => self.below(11) as f64,
+            1 => (self.below(10) as f64 + self.decades(-16.0, -1.0)).min(10.0),
+            _ => self.within(0.0, 10.0),
+        }
+    }
+
     fn correlation(&mut self) -> f64 {
         let sign = if self.below(2) == 0 { 1.0 } else { -1.0 };
         sign * if self.below(2) == 0 { self.unit() } else { 1.0 - self.decades(-6.0, 0.0) }
@@ -69,15 +77,13 @@ impl Random {
         let gtr_alpha = if self.below(4) == 0 { 1.0 } else { self.decades(-8.0, 0.0) };
         let shape = match self.below(8) {
             0..3 => Shape::Ggx,
-            3..6 => Shape::Beckmann,
+            3..5 => Shape::Beckmann,
+            5 => Shape::Mixture { alpha: gtr_alpha, gamma: self.gamma() },
             6 => Shape::Gtr { alpha: gtr_alpha, gamma: self.below(5) as u8 },
             _ => Shape::Spline { alpha: gtr_alpha, gamma: 4.0 * self.unit() },
         };
-        let alpha = if matches!(shape, Shape::Gtr { .. } | Shape::Spline { .. }) && self.below(2) == 0 {
-            1.0
-        } else {
-            self.alpha()
-        };
+        let invariant = matches!(shape, Shape::Ggx | Shape::Beckmann);
+        let alpha = if !invariant && self.below(2) == 0 { 1.0 } else { self.alpha() };
         let other = (alpha * self.decades(-6.0, 6.0)).clamp(1e-8, 1e4);
         let widths = match self.below(3) {
             0 => Widths::Isotropic(alpha),
@@ -314,7 +320,7 @@ fn beyond_the_scalar<T: Scalar>(spec: &Spec) -> bool {
     let [[a, b], [c, d]] = spec.factor::<T>();
     let smallest = (a * d - b * c).abs() / (a * a + b * b + c * c + d * d).sqrt();
     let own = match spec.shape {
-        Shape::Gtr { alpha, .. } | Shape::Spline { alpha, .. } => alpha,
+        Shape::Gtr { alpha, .. } | Shape::Mixture { alpha, .. } | Shape::Spline { alpha, .. } => alpha,
         Shape::Ggx | Shape::Beckmann => 1.0,
     };
     skewness(spec) > 0.25 / T::EPSILON.to_f64() || own * smallest < alpha_range::<T>().0.to_f64()

@@ -107,7 +107,9 @@ fn plane<T: Scalar>(spec: &Spec) -> Plane {
     match spec.shape {
         Shape::Ggx => Plane::heavy(factor, 1.0),
         Shape::Beckmann => Plane::gaussian(factor),
-        Shape::Gtr { alpha, .. } | Shape::Spline { alpha, .. } => Plane::heavy(factor, alpha),
+        Shape::Gtr { alpha, .. } | Shape::Mixture { alpha, .. } | Shape::Spline { alpha, .. } => {
+            Plane::heavy(factor, alpha)
+        }
     }
 }
 

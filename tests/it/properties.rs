@@ -77,8 +77,12 @@ fn roundings_of_d(spec: &Spec, m: [f64; 3], absolute: f64) -> f64 {
     match spec.shape {
         Shape::Ggx => 4.0 * z + 2.0 * dq / (1.0 + q),
         Shape::Beckmann => 4.0 * z + dq,
-        Shape::Gtr { alpha, .. } => 4.0 * z + 4.0 * dq / (alpha * alpha + q) + 2.0 * dq / (1.0 + q),
-        Shape::Spline { alpha, gamma } => 4.0 * z + gamma * dq / (alpha * alpha + q) + 2.0 * dq / (1.0 + q),
+        // A power has roundings of its own.
+        Shape::Gtr { alpha, .. } => 6.0 * z + 4.0 * dq / (alpha * alpha + q) + 2.0 * dq / (1.0 + q),
+        Shape::Mixture { alpha, gamma } => {
+            6.0 * z + gamma * dq / (alpha * alpha + q) + (gamma - 2.0).abs() * dq / (1.0 + q)
+        }
+        Shape::Spline { alpha, gamma } => 6.0 * z + gamma * dq / (alpha * alpha + q) + 2.0 * dq / (1.0 + q),
     }
 }
 

@@ -145,6 +145,16 @@ fn gtr_alpha() -> impl Strategy<Value = f64> {
     prop_oneof![3 => log_uniform(-19.9, 0.0), 1 => Just(1.0), 1 => Just(1.0 - 1e-7), 1 => Just(1e-6)]
 }
 
+fn gtr_gamma() -> impl Strategy<Value = f64> {
+    prop_oneof![4 => 0.0..=4.0, 1 => 4.0..=10.0, 1 => (0..=10_u8).prop_map(f64::from), 1 => Just(2.0 + 1e-9), 1 => Just(1e-9)]
+}
+
+fn mixture() -> impl Strategy<Value = Spec> {
+    let widths_of_gtr = prop_oneof![2 => Just(Widths::Isotropic(1.0)), 1 => widths()];
+    (gtr_alpha(), gtr_gamma(), widths_of_gtr, moves())
+        .prop_map(|(alpha, gamma, widths, moved)| Spec::new(Shape::Mixture { alpha, gamma }, widths, moved))
+}
+
 /// Every profile under every kind of map.
 pub(crate) fn surface() -> impl Strategy<Value = Spec> {
     let widths_of_gtr = prop_oneof![2 => Just(Widths::Isotropic(1.0)), 1 => widths()];
@@ -155,14 +165,12 @@ pub(crate) fn surface() -> impl Strategy<Value = Spec> {
         .prop_map(|(alpha, gamma, widths, moved)| Spec::new(Shape::Gtr { alpha, gamma }, widths, moved));
     let spline = (gtr_alpha(), prop_oneof![3 => 0.0..=4.0, 1 => Just(1.0 + 1e-9)], widths_of_gtr, moves())
         .prop_map(|(alpha, gamma, widths, moved)| Spec::new(Shape::Spline { alpha, gamma }, widths, moved));
-    prop_oneof![3 => invariant, 1 => gtr, 1 => spline]
+    prop_oneof![3 => invariant, 1 => gtr, 1 => mixture(), 1 => spline]
 }
 
 /// Surfaces whose visible normals can be drawn.
 pub(crate) fn visible_surface() -> impl Strategy<Value = Spec> {
-    (any::<bool>(), widths(), moves()).prop_map(|(ggx, widths, moved)| {
-        Spec::new(if ggx { Shape::Ggx } else { Shape::Beckmann }, widths, moved)
-    })
+    surface().prop_filter("visible normals", |spec| !matches!(spec.shape, Shape::Spline { .. }))
 }
 
 /// The share of 4000 draws with a property.
@@ -219,7 +227,8 @@ fn surfaces_of_every_kind_build() {
         ("GGX", share(&spec, |s| s.shape == Shape::Ggx)),
         ("Beckmann", share(&spec, |s| s.shape == Shape::Beckmann)),
         ("exact GTR", share(&spec, |s| matches!(s.shape, Shape::Gtr { .. }))),
-        ("spline", share(&spec, |s| !s.exact_mask())),
+        ("GTR of nodes", share(&spec, |s| matches!(s.shape, Shape::Mixture { .. }))),
+        ("spline", share(&spec, |s| matches!(s.shape, Shape::Spline { .. }))),
         ("transformed", share(&spec, |s| matches!(s.moved, Move::Transform(_)))),
         ("stretched", share(&spec, |s| matches!(s.moved, Move::Stretch(_)))),
         ("smooth", share(&alpha().boxed(), |alpha| alpha < 1e-4)),

@@ -14,8 +14,20 @@ use microsurface::{Beckmann, Error, Ggx, Gtr, Microsurface, Real, RoughnessMatri
 pub(crate) enum Shape {
     Ggx,
     Beckmann,
-    Gtr { alpha: f64, gamma: u8 },
-    Spline { alpha: f64, gamma: f64 },
+    /// With the closed mask of an integer γ.
+    Gtr {
+        alpha: f64,
+        gamma: u8,
+    },
+    /// With the mask of eight nodes.
+    Mixture {
+        alpha: f64,
+        gamma: f64,
+    },
+    Spline {
+        alpha: f64,
+        gamma: f64,
+    },
 }
 
 /// The slope widths given when a surface is built; for GTR a map on top of the profile's own α.
@@ -50,7 +62,7 @@ impl Spec {
 
     /// Whether σ is that of D to rounding.
     pub(crate) fn exact_mask(&self) -> bool {
-        !matches!(self.shape, Shape::Spline { .. })
+        !matches!(self.shape, Shape::Spline { .. } | Shape::Mixture { .. })
     }
 
     /// With every parameter rounded to f32, so that both scalars hold the same; widths of matrices as their entries
@@ -59,6 +71,7 @@ impl Spec {
         let held = |x: f64| f64::from(x as f32);
         let shape = match self.shape {
             Shape::Gtr { alpha, gamma } => Shape::Gtr { alpha: held(alpha), gamma },
+            Shape::Mixture { alpha, gamma } => Shape::Mixture { alpha: held(alpha), gamma: held(gamma) },
             Shape::Spline { alpha, gamma } => Shape::Spline { alpha: held(alpha), gamma: held(gamma) },
             shape => shape,
         };
@@ -81,12 +94,15 @@ impl Spec {
             Shape::Gtr { alpha, gamma } => {
                 let alpha = T::lit(alpha);
                 match gamma {
-                    0 => self.hidden(*Gtr::closed::<0>(alpha)?.profile()),
-                    1 => self.hidden(*Gtr::closed::<1>(alpha)?.profile()),
-                    2 => self.hidden(*Gtr::closed::<2>(alpha)?.profile()),
-                    3 => self.hidden(*Gtr::closed::<3>(alpha)?.profile()),
-                    _ => self.hidden(*Gtr::closed::<4>(alpha)?.profile()),
+                    0 => self.visible(*Gtr::closed::<0>(alpha)?.profile()),
+                    1 => self.visible(*Gtr::closed::<1>(alpha)?.profile()),
+                    2 => self.visible(*Gtr::closed::<2>(alpha)?.profile()),
+                    3 => self.visible(*Gtr::closed::<3>(alpha)?.profile()),
+                    _ => self.visible(*Gtr::closed::<4>(alpha)?.profile()),
                 }
+            }
+            Shape::Mixture { alpha, gamma } => {
+                self.visible(*Gtr::isotropic(T::lit(alpha), T::lit(gamma))?.profile())
             }
             Shape::Spline { alpha, gamma } => {
                 self.hidden(*Gtr::spline(T::lit(alpha), T::lit(gamma))?.profile())

@@ -1,22 +1,12 @@
 //! Exact masks of GTR for integer γ, as closed forms whose terms are all positive.
 //!
-//! For integer γ ≥ 2 the density is a mixture of Student-t profiles of integer exponent b,
-//! (b−1) t^{b−1}/(π (r² + t)^b) with t = α², because
-//! (r² + 1)^{γ−2}/(r² + t)^γ = Σₖ C(γ−2, k) (1−t)ᵏ/(r² + t)^{k+2}. Normalised, the weights are
+//! γ = 0 is GGX of α = 1. γ = 1, with t = α², L = ln t, r = √(z² + t s²), R = √(z² + s²) and δ = (1−t) s²/(R + r), is
+//! z Λ = (z ln(1 + δ/(z + r)) − δ)/L. From γ = 2 on the density is a finite mixture of Student-t profiles of width α,
+//! whose masks are elementary: see `integer.rs`. With e = r − z they are
 //!
-//! | γ | b = 2 | b = 3 | b = 4 |
-//! |---|---|---|---|
-//! | 2 | 1 | | |
-//! | 3 | 2t/(1+t) | (1−t)/(1+t) | |
-//! | 4 | 3t²/(1+t+t²) | 3t(1−t)/(1+t+t²) | (1−t)²/(1+t+t²) |
+//! γ = 2: z Λ = e/2;  γ = 3: e (w₀/2 + w₁ e/(4r)), w₀ = 2t/(1+t), w₁ = (1−t)/(1+t); …
 //!
-//! and each component has, with r = √(z² + t s²) and e = r − z = t s²/(r + z),
-//!
-//! z Λ = e/2 (b = 2),  e²/(4r) (b = 3),  e³(3r + z)/(16r³) (b = 4).
-//!
-//! They are Dimov's G1 at γ = 2, 3, 4, freed of the cancellation between their terms. γ = 1, with
-//! L = ln t, R = √(z² + s²) and δ = (1−t) s²/(R + r), is z Λ = (z ln(1 + δ/(z + r)) − δ)/L, and γ = 0 is GGX of
-//! α = 1.
+//! They are Dimov's G1 at γ = 0, 1, 2, 3, 4, freed of the cancellation between their terms, and those up to γ = 10.
 //!
 //! References: Dimov 2015, §3; Atanasov, Koylazov, Dimov and Wilkie 2022, Eqs. 35–39.
 
@@ -27,48 +17,52 @@ use crate::map::Isotropic;
 use crate::microsurface::Microsurface;
 use crate::profile::Profile;
 use crate::profile::ggx::Ggx;
-use crate::profile::gtr::{Gtr, Masking, range_and_log};
+use crate::profile::gtr::integer::{LARGEST_DEGREE, Seen, series};
+use crate::profile::gtr::{Gtr, Masking, VisibleMasking, range_and_log};
 
-/// The exact mask of GTR at the integer γ = `G`, 0 … 4.
+/// The exact mask of GTR at the integer γ = `G`, 0 … 10.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Closed<T, const G: u8> {
     /// α².
     alpha2: T,
-    /// γ = 1: 1 − α² and 1/ln α².  γ = 3, 4: the weights of b = 2, b = 3 and, for γ = 4, b = 4.
-    first: T,
-    second: T,
-    third: T,
+    /// γ = 1: 1 − α² and 1/ln α².  γ ≥ 3: aᵢ Vᵢ, i = 1 … γ − 2.
+    terms: [[T; 1]; LARGEST_DEGREE],
+}
+
+impl<T, const G: u8> Closed<T, G> {
+    /// n of γ = n + 2.
+    const DEGREE: usize = {
+        assert!(G as usize <= LARGEST_DEGREE + 2, "closed masks of GTR exist for gamma = 0, 1, ..., 10");
+        (G as usize).saturating_sub(2)
+    };
 }
 
 impl<T: Real, const G: u8> Masking<T> for Closed<T, G> {
     fn new(alpha: T, gamma: T) -> Result<Self, Error> {
-        const { assert!(G <= 4, "closed masks of GTR exist for gamma = 0, 1, 2, 3, 4") };
         if gamma != T::lit(f64::from(G)) {
             return Err(Error::Parameter { name: "gamma", value: gamma.to_f64() });
         }
-        let (range, log) = range_and_log(alpha.to_f64());
-        let t = alpha.to_f64() * alpha.to_f64();
-        let (first, second) = match G {
-            1 => (range, 1.0 / log),
-            3 => (2.0 * t / (1.0 + t), range / (1.0 + t)),
-            4 => (3.0 * t * t / (1.0 + t + t * t), 3.0 * t * range / (1.0 + t + t * t)),
-            _ => (1.0, 0.0),
+        let alpha = alpha.to_f64();
+        let alpha2 = alpha * alpha;
+        let terms = if G == 1 {
+            let (range, log) = range_and_log(alpha);
+            let mut terms = [[0.0]; LARGEST_DEGREE];
+            (terms[0], terms[1]) = ([range], [1.0 / log]);
+            terms
+        } else {
+            series(Self::DEGREE, &[alpha2])
         };
-        let (first, second) = (T::lit(first), T::lit(second));
-        // From the rounded two, so that the weights sum to 1.
-        Ok(Self { alpha2: T::lit(t), first, second, third: T::ONE - first - second })
+        Ok(Self { alpha2: T::lit(alpha2), terms: terms.map(|[term]| [T::lit(term)]) })
     }
 
     #[inline(always)]
-    fn root_of_power(x: T::Wide, _: T) -> T {
-        let inverse = T::Wide::ONE / x;
-        T::narrow(match G {
-            0 => T::Wide::ONE,
-            1 => inverse.sqrt(),
-            2 => inverse,
-            3 => inverse * inverse.sqrt(),
-            _ => inverse * inverse,
-        })
+    fn root_of_power(n: T::Wide, d: T::Wide, _: T) -> T {
+        let inverse = d / n;
+        let mut power = if G % 2 == 0 { T::Wide::ONE } else { inverse.sqrt() };
+        for _ in 0..G / 2 {
+            power *= inverse;
+        }
+        T::narrow(power)
     }
 
     #[inline(always)]
@@ -82,30 +76,29 @@ impl<T: Real, const G: u8> Masking<T> for Closed<T, G> {
 
     #[inline(always)]
     fn sigma_backfacing(&self, s2: T, z: T) -> T {
-        let scaled = self.alpha2 * s2;
-        let r = (z * z + scaled).sqrt();
-        let e = scaled / (r + z);
-        let e_over_r = e / r;
         match G {
             0 => Ggx.sigma_backfacing(s2, z),
             1 => {
-                let delta = self.first * s2 / ((z * z + s2).sqrt() + r);
-                (z * ln_1p(delta / (z + r)) - delta) * self.second
+                let [[range], [inv_log], ..] = self.terms;
+                let r = (z * z + self.alpha2 * s2).sqrt();
+                let delta = range * s2 / ((z * z + s2).sqrt() + r);
+                (z * ln_1p(delta / (z + r)) - delta) * inv_log
             }
-            2 => Ggx.sigma_backfacing(scaled, z),
-            3 => e * (T::HALF * self.first + T::lit(0.25) * self.second * e_over_r),
+            2 => Ggx.sigma_backfacing(self.alpha2 * s2, z),
             _ => {
-                let b4 = self.third * (e_over_r * e_over_r) * (T::lit(3.0) + z / r);
-                e * (T::HALF * self.first + T::lit(0.25) * self.second * e_over_r + T::lit(1.0 / 16.0) * b4)
+                let seen = Seen::new(self.alpha2, s2, z);
+                T::HALF * seen.twice_backfacing(Self::DEGREE, |i| self.terms[i][0])
             }
         }
     }
 }
 
+impl<T: Real, const G: u8> VisibleMasking<T> for Closed<T, G> {}
+
 impl<T: Real> Gtr<T, ()> {
-    /// GTR at the integer γ = `G` ∈ {0, 1, 2, 3, 4} with its exact mask.
+    /// GTR at the integer γ = `G` ∈ {0, 1, …, 10} with its exact mask.
     ///
-    /// `Gtr::closed::<1>(alpha)` is the Berry distribution. Another `G` does not compile.
+    /// `Gtr::closed::<1>(alpha)` is the Berry distribution. A larger `G` does not compile.
     ///
     /// # Errors
     /// [`Error::Alpha`] or [`Error::AlphaAboveOne`] unless 0 < α ≤ 1.
@@ -119,7 +112,7 @@ impl<T: Real> Gtr<T, ()> {
     /// # Ok::<(), microsurface::Error>(())
     /// ```
     /// ```compile_fail
-    /// let unknown = microsurface::Gtr::closed::<5>(0.05_f64);
+    /// let unknown = microsurface::Gtr::closed::<11>(0.05_f64);
     /// ```
     #[expect(clippy::type_complexity, reason = "the type names the distribution, its masking and its map")]
     pub fn closed<const G: u8>(alpha: T) -> Result<Microsurface<Gtr<T, Closed<T, G>>, Isotropic<T>>, Error> {
