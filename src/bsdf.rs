@@ -4,9 +4,11 @@
 //! local frame that point away from the surface.
 
 mod conductor;
+mod mixture;
 mod sampling;
 
 pub use conductor::RoughConductor;
+pub use mixture::UniformMixture;
 pub use sampling::{AllNormals, NormalSampling, VisibleNormals};
 
 use crate::Real;

@@ -41,6 +41,7 @@
 //! | a distribution of your own | implement [`Ndf`] |
 //! | α from an artist's roughness | [`roughness`] |
 //! | reflection | [`bsdf::RoughConductor`] with a [`fresnel`] term |
+//! | GTR sampled as in its papers | [`bsdf::UniformMixture`] |
 //!
 //! # Conventions
 //! Unit directions in the local frame, z up, all pointing away from the surface. Angles in radians. Random numbers in

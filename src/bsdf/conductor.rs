@@ -84,6 +84,9 @@ impl<N, F, S> RoughConductor<N, F, S> {
 struct Half<T> {
     h: [T; 3],
     length: T,
+    /// Neither direction is at or below the horizon.
+    above: bool,
+    /// Above, and the half vector has not vanished.
     reflects: bool,
 }
 
@@ -94,8 +97,9 @@ impl<T: Real> Half<T> {
         let length2 = dot(h, h);
         // α²|h|² of the smallest α must keep its digits: the root of the smallest normal number.
         let shortest2 = T::lit(if T::WIDENS { 5.421010862427522e-20 } else { 7.458340731200207e-155 });
-        let dark = iz <= T::ZERO || oz <= T::ZERO || length2 < shortest2;
-        Self { h, length: length2.sqrt(), reflects: !dark }
+        let below = iz <= T::ZERO || oz <= T::ZERO;
+        let dark = below || length2 < shortest2;
+        Self { h, length: length2.sqrt(), above: !below, reflects: !dark }
     }
 
     /// The value where light is reflected, 0 elsewhere.
@@ -146,13 +150,20 @@ where
     /// The density with which [`sample`](Self::sample) draws `wi`, 1/sr.
     ///
     /// Its integral over the upper hemisphere is below 1 by the share of normals that reflect below the horizon.
+    ///
+    /// # Special cases
+    /// No half vector, but both directions above the horizon → the constant part of the density alone.
     #[inline(always)]
     #[must_use]
     pub fn pdf(&self, wi: Vec3<N>, wo: Vec3<N>) -> N::Scalar {
         let half = Half::<N::Scalar>::new(wi.into(), wo.into());
         let (wo_wm, wm_z) = (N::Scalar::HALF * half.length, half.h[2] / half.length);
         let density = self.sampling.density_over_d(self.surface.sigma_above(wo), wo_wm, wm_z);
-        half.select(self.surface.d_along(half.h.into()) * density)
+        let of_normals = half.select(self.surface.d_along(half.h.into()) * density);
+        match self.sampling.constant_density() {
+            None => of_normals,
+            Some(constant) => of_normals + if half.above { constant } else { N::Scalar::ZERO },
+        }
     }
 
     /// A direction to the light for the viewer `wo`, from two random numbers.
@@ -176,12 +187,16 @@ where
         if !up {
             return None;
         }
-        let density = self.sampling.density_over_d(self.surface.sigma_above(wo), wo_wm, m[2]);
-        let weight = Self::quarter() * i[2] / (density * self.masked_cosines(wi, wo));
-        Some(Sample {
-            wi,
-            weight: self.fresnel.reflectance(wo_wm).scaled(weight),
-            pdf: self.surface.d(wm) * density,
-        })
+        let of_normals = self.sampling.density_over_d(self.surface.sigma_above(wo), wo_wm, m[2]);
+        let (d, masked) = (self.surface.d(wm), self.masked_cosines(wi, wo));
+        let (pdf, weight) = match self.sampling.constant_density() {
+            None => (d * of_normals, Self::quarter() * i[2] / (of_normals * masked)),
+            Some(constant) => {
+                let pdf = d * of_normals + constant;
+                // D/pdf first: neither it nor what it multiplies leaves the range of the scalar.
+                (pdf, Self::quarter() * i[2] * (d / pdf) / masked)
+            }
+        };
+        Some(Sample { wi, weight: self.fresnel.reflectance(wo_wm).scaled(weight), pdf })
     }
 }

@@ -4,15 +4,25 @@ use crate::Real;
 use crate::ndf::{Ndf, SampleNdf, SampleVndf, Vec2, Vec3};
 
 /// A way to draw the micronormal a ray is reflected by.
+///
+/// The density of the reflected directions is p(wi) = D(wm) `density_over_d` + `constant_density`, 1/sr. A strategy
+/// without the constant has a weight that contains no D.
 pub trait NormalSampling<N: Ndf> {
     /// A unit normal for the direction `wo`, from u ∈ [0, 1)².
     fn sample(&self, surface: &N, wo: Vec3<N>, u: Vec2<N>) -> Vec3<N>;
 
-    /// The density of reflected directions over D(wm): p(wi)/D(wm) = p(wm)/(4 (wo·wm) D(wm)).
+    /// The density of directions reflected by normals in proportion to D, over D(wm): p(wm)/(4 (wo·wm) D(wm)).
     ///
     /// # Domain
     /// The cosines `wo_wm` = wo·wm and `wm_z` = wm.z are positive; `sigma_o` = σ(wo).
     fn density_over_d(&self, sigma_o: N::Scalar, wo_wm: N::Scalar, wm_z: N::Scalar) -> N::Scalar;
+
+    /// The part of the density that is the same for every direction above the horizon, 1/sr; above 0, and `None` where
+    /// there is none, which the compiler should see.
+    #[inline(always)]
+    fn constant_density(&self) -> Option<N::Scalar> {
+        None
+    }
 }
 
 /// The normals visible from the viewer, of density D_w: the sample's weight never exceeds the reflectance.
@@ -24,6 +34,7 @@ pub struct VisibleNormals;
 ///
 /// Weights are unbounded towards grazing angles, and so is the density of directions, D wm.z/(4 wo·wm): it overflows to
 /// ∞ where the cosine wo·wm is smaller than D over the largest number of the scalar.
+/// [`UniformMixture`](crate::bsdf::UniformMixture) bounds the weights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct AllNormals;

@@ -1,6 +1,6 @@
 //! What constructors refuse and how they say it, and that evaluation answers NaN with NaN.
 
-use microsurface::bsdf::RoughConductor;
+use microsurface::bsdf::{AllNormals, RoughConductor, UniformMixture};
 use microsurface::fresnel::{Conductor, Dielectric, Fresnel, Perfect, Schlick};
 use microsurface::glam::{DMat2, DVec2, DVec3};
 use microsurface::profile::gtr::Density;
@@ -206,6 +206,37 @@ fn artists_parameters_are_refused() {
     assert!(matches!(alphas_openpbr(0.5, 1.0), Err(Error::Alpha { value: 0.0, .. })));
 }
 
+fn probabilities_are_refused<T: Scalar>() {
+    for p in [T::ONE, -T::TINIEST, -T::ONE, T::TWO, T::NAN, T::INFINITY, -T::INFINITY] {
+        let error = UniformMixture::new(AllNormals, p).unwrap_err();
+        let Error::Parameter { name: "probability", value } = error else { panic!("{error:?}") };
+        assert_eq!(value.to_bits(), p.to_f64().to_bits());
+        assert!(error.to_string().contains(&format!("probability = {value}")), "{error}");
+    }
+    for p in [T::ZERO, -T::ZERO, T::TINIEST, T::HALF, T::BELOW_ONE] {
+        let mixture = UniformMixture::new(AllNormals, p).unwrap();
+        assert!(mixture.probability() >= T::ZERO && mixture.probability() < T::ONE, "{mixture:?}");
+    }
+    for alpha in not_widths::<T>() {
+        assert!(matches!(UniformMixture::for_alpha(AllNormals, alpha), Err(Error::Alpha { .. })));
+    }
+    let (smallest, largest) = alpha_range::<T>();
+    let probability =
+        |alpha: T| -> f64 { UniformMixture::for_alpha(AllNormals, alpha).unwrap().probability().to_f64() };
+    assert!(probability(smallest) <= 0.0 && (probability(largest) - 0.8).abs() < 1e-7);
+    assert!((probability(T::HALF) - 0.2).abs() < 1e-7);
+}
+
+#[test]
+fn probabilities_are_refused_f32() {
+    probabilities_are_refused::<f32>();
+}
+
+#[test]
+fn probabilities_are_refused_f64() {
+    probabilities_are_refused::<f64>();
+}
+
 /// A surface of each profile under each type of map.
 fn surfaces<T: Scalar>() -> Vec<Surface<T>> {
     let mut surfaces = Vec::new();
@@ -243,6 +274,9 @@ fn nan_gives_nan<T: Scalar>() {
             };
             let (bad_w, bad_m, w, v, m) = (spoiled(w), spoiled(m), w.into(), v.into(), m.into());
             let brdf = RoughConductor::new(surface.clone(), Schlick::new(T::HALF));
+            let mixture = UniformMixture::new(AllNormals, T::HALF).unwrap();
+            let mixed = brdf.clone().sampled_by(mixture);
+            assert!(mixed.sample(bad_w, u.into()).is_none(), "{surface:?}: no sample of nowhere");
             let by_name = [
                 ("d", surface.d(bad_m)),
                 ("sigma", surface.sigma(bad_w)),
@@ -259,6 +293,8 @@ fn nan_gives_nan<T: Scalar>() {
                 ("pdf_d", surface.pdf_d(bad_m)),
                 ("eval i", brdf.eval(bad_w, v)),
                 ("eval o", brdf.eval(v, bad_w)),
+                ("mixture i", mixed.pdf(bad_w, v)),
+                ("mixture o", mixed.pdf(v, bad_w)),
             ];
             for (name, value) in by_name {
                 assert!(is_nan(value), "{surface:?} {name}, component {k}: {}", value.hex());
@@ -274,6 +310,9 @@ fn nan_gives_nan<T: Scalar>() {
             let mut bad = u;
             bad[k] = T::NAN;
             assert!(is_nan(surface.p22(bad.into())), "{surface:?}");
+            let mixture = UniformMixture::new(AllNormals, T::HALF).unwrap();
+            let mixed = RoughConductor::new(surface.clone(), Schlick::new(T::HALF)).sampled_by(mixture);
+            assert!(mixed.sample(w.into(), bad.into()).is_none(), "{surface:?}");
             let sample: [T; 3] = surface.sample_d(bad.into()).into();
             assert!(sample.iter().any(|&c| is_nan(c)), "{surface:?} {k}: {sample:?}");
             if surface.samples_visible() {
@@ -325,10 +364,17 @@ fn the_horizon_is_as_documented() {
                     && brdf.sample(down, DVec2::ZERO).is_none()
             );
         }
+        let mixed = brdf.clone().sampled_by(UniformMixture::new(AllNormals, 0.5).unwrap());
+        assert_eq!((mixed.pdf(down, up), mixed.pdf(up, level)), (0.0, 0.0));
+        for u in [DVec2::new(0.2, 0.3), DVec2::new(0.7, 0.3)] {
+            assert!(mixed.sample(level, u).is_none() && mixed.sample(down, u).is_none());
+        }
+        let (left, right) = (DVec3::new(-1.0, 0.0, 1e-160), DVec3::new(1.0, 0.0, 1e-160));
+        assert_eq!(brdf.eval(left, right), 0.0, "no half vector");
         assert_eq!(
-            brdf.eval(DVec3::new(-1.0, 0.0, 1e-160), DVec3::new(1.0, 0.0, 1e-160)),
-            0.0,
-            "no half vector"
+            mixed.pdf(left, right),
+            0.25 * core::f64::consts::FRAC_1_PI,
+            "uniform directions are left"
         );
     }
 }

@@ -8,7 +8,7 @@ use core::f64::consts::TAU;
 use core::fmt::Write as _;
 use std::collections::BTreeMap;
 
-use microsurface::bsdf::{AllNormals, NormalSampling, RoughConductor};
+use microsurface::bsdf::{AllNormals, NormalSampling, RoughConductor, UniformMixture};
 use microsurface::fresnel::{Conductor, Dielectric, Fresnel, Schlick};
 use microsurface::roughness::alpha_range;
 use microsurface::{Ndf, SampleNdf, SampleVndf};
@@ -354,6 +354,10 @@ fn rounds<T: Scalar>(defects: &mut Defects, random: &mut Random, spec: Spec) {
     let glass = RoughConductor::new(surface.clone(), Dielectric::new(T::lit(1.5)).expect("glass"));
     let copper = Conductor::new(T::lit(0.21), T::lit(3.67)).expect("copper");
     let copper = RoughConductor::new(surface.clone(), copper).sampled_by(AllNormals);
+    // p = 0, both ends of what is left of the rounding, and anything between.
+    let probability = random.number::<T>();
+    let mixture = UniformMixture::new(AllNormals, probability).expect("below 1");
+    let mixed = RoughConductor::new(surface.clone(), Schlick::new(T::lit(0.04))).sampled_by(mixture);
     for _ in 0..8 {
         let wo = random.direction();
         let (wi, wm) = (random.partner(wo), random.partner(wo));
@@ -365,6 +369,7 @@ fn rounds<T: Scalar>(defects: &mut Defects, random: &mut Random, spec: Spec) {
             round.reflection("dielectric", &glass, true);
         }
         round.reflection("conductor, all normals", &copper, false);
+        round.reflection("mixture", &mixed, false);
     }
 }
 

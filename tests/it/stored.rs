@@ -1,7 +1,7 @@
 //! Serialised surfaces: what comes back is the same bits, and what is read is checked.
 #![cfg(feature = "serde")]
 
-use microsurface::bsdf::RoughConductor;
+use microsurface::bsdf::{AllNormals, RoughConductor, UniformMixture, VisibleNormals};
 use microsurface::fresnel::{Conductor, Dielectric, Schlick};
 use microsurface::glam::DMat2;
 use microsurface::profile::gtr::closed::Closed;
@@ -30,6 +30,9 @@ fn surfaces_come_back_unchanged() {
         comes_back(&Gtr::spline(alpha, 1.7).unwrap().stretched(-0.2).unwrap());
         comes_back(&RoughConductor::new(ggx, Conductor::new(0.2, 3.7).unwrap()));
         comes_back(&RoughConductor::new(moved, Schlick::new(0.04)));
+        let mixture = UniformMixture::new(AllNormals, alpha).unwrap();
+        comes_back(&RoughConductor::new(ggx, Schlick::new(0.04)).sampled_by(mixture));
+        comes_back(&UniformMixture::new(UniformMixture::new(VisibleNormals, 0.3_f32).unwrap(), 0.7).unwrap());
         comes_back(&Ggx::isotropic(alpha as f32).unwrap());
         comes_back(&RoughnessMatrix::new(alpha, 0.01 * alpha, 0.2).unwrap());
     }
@@ -70,6 +73,10 @@ fn invalid_surfaces_are_refused() {
     let closed = Gtr::closed::<3>(0.25).unwrap();
     refused::<Surface<Gtr<f64, Closed<f64, 3>>, Isotropic<f64>>>(&closed, "3.0", "2.0", "gamma = 2");
     refused::<Dielectric<f64>>(&Dielectric::new(1.5).unwrap(), "1.5", "-1.5", "refractive index = -1.5");
+    let mixture = UniformMixture::new(AllNormals, 0.25).unwrap();
+    for bad in ["1.0", "-0.25", "1e300"] {
+        refused::<UniformMixture<AllNormals, f64>>(&mixture, "0.25", bad, "probability = ");
+    }
     refused::<Conductor<f64>>(
         &Conductor::new(0.25, 3.5).unwrap(),
         "3.5",

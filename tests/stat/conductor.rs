@@ -13,7 +13,9 @@ use crate::family::{Family, assert_rejected};
 use crate::points::Random;
 use crate::quadrature::{Mass, Quadrature, total};
 use crate::special::{count, erfc};
-use crate::surfaces::{Conductor, MIRROR, SKEW, Shape, Surface, by_all_normals, by_visible_normals, surface};
+use crate::surfaces::{
+    Conductor, MIRROR, SKEW, Shape, Surface, by_all_normals, by_mixture, by_visible_normals, surface,
+};
 
 /// The distributions.
 #[derive(Debug, Clone, Copy)]
@@ -34,10 +36,12 @@ struct Case {
 }
 
 /// Which normals are sampled.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 enum Normals {
     Visible,
     All,
+    /// Uniform directions with this probability, else all normals.
+    Mixed(f64),
 }
 
 impl Case {
@@ -61,6 +65,17 @@ impl Case {
             (Distribution::Beckmann, Normals::All) => {
                 (by_all_normals::<T, _>(Beckmann, shape), surface::<T, _>(Beckmann, shape), Radial::Beckmann)
             }
+            (Distribution::Ggx, Normals::Mixed(p)) => {
+                (by_mixture::<T, _>(Ggx, shape, p), surface::<T, _>(Ggx, shape), Radial::Ggx)
+            }
+            (Distribution::Beckmann, Normals::Mixed(p)) => {
+                (by_mixture::<T, _>(Beckmann, shape, p), surface::<T, _>(Beckmann, shape), Radial::Beckmann)
+            }
+            (Distribution::Berry(alpha), Normals::Mixed(p)) => (
+                by_mixture::<T, _>(berry(alpha), shape, p),
+                surface::<T, _>(berry(alpha), shape),
+                Radial::gtr(alpha, 1.0),
+            ),
             (Distribution::Berry(alpha), _) => (
                 by_all_normals::<T, _>(berry(alpha), shape),
                 surface::<T, _>(berry(alpha), shape),
@@ -220,6 +235,55 @@ fn cases() -> Vec<Case> {
     cases
 }
 
+/// Mixtures, of widths at which a uniform direction has a place in the chart of the normals.
+fn mixtures() -> Vec<Case> {
+    let mut cases = Vec::new();
+    for (shape, p) in
+        [(Shape::Isotropic(0.9), 0.64), (Shape::Axes(0.4, 0.7), 0.25), (Shape::Moved(0.8, SKEW), 0.05)]
+    {
+        for degrees in [0.0, 60.0, 85.0] {
+            cases.push(Case::new::<f64>(Distribution::Ggx, Normals::Mixed(p), shape, degrees));
+            cases.push(Case::new::<f32>(Distribution::Ggx, Normals::Mixed(1.0 - p), shape, degrees));
+            cases.push(Case::new::<f64>(Distribution::Berry(0.3), Normals::Mixed(p), shape, degrees));
+        }
+        cases.push(Case::new::<f64>(Distribution::Beckmann, Normals::Mixed(p), shape, 30.0));
+    }
+    cases
+}
+
+#[test]
+fn sampled_mixtures_have_their_pdf_and_weights_the_albedo() {
+    run(&mixtures(), Effort::QUICK, [Family::new("UniformMixture"), Family::new("mean weights of mixtures")]);
+}
+
+#[test]
+fn wrong_mixtures_are_rejected() {
+    let (p, shape) = (0.2, Shape::Axes(0.4, 0.7));
+    for distribution in [Distribution::Ggx, Distribution::Berry(0.3)] {
+        let make = |normals, shape| Case::new::<f64>(distribution, normals, shape, 60.0);
+        let case = make(Normals::Mixed(p), shape);
+        let wrong = [
+            ("the uniform part left out", make(Normals::Mixed(0.0), shape), 1.0 - p),
+            ("the normals left out", make(Normals::Mixed(1.0 - f64::EPSILON), shape), p),
+            ("the pdf of all normals", make(Normals::All, shape), 1.0),
+            ("1 - p for p", make(Normals::Mixed(1.0 - p), shape), 1.0),
+            ("p off by 10 %", make(Normals::Mixed(1.1 * p), shape), 1.0),
+            ("axes swapped", make(Normals::Mixed(p), shape.swapped()), 1.0),
+        ];
+        for (why, other, factor) in wrong {
+            let mut weights = Weights::default();
+            let pdf = |wi| factor * other.brdf.pdf(wi, case.wo);
+            let outcome = case.against(&pdf, &format!(", {why}"), Run::new(Effort::QUICK, 1, &mut weights));
+            assert_rejected(&outcome);
+        }
+        let mut weights = Weights::default();
+        let warped = Run { warp: |[a, b]| [a, b * b], ..Run::new(Effort::QUICK, 2, &mut weights) };
+        assert_rejected(&case.against(&|wi| case.brdf.pdf(wi, case.wo), ", u2 squared", warped));
+        let share = make(Normals::Mixed(p), Shape::Isotropic(0.9));
+        wrong_albedos(&share, &make(Normals::Mixed(p), Shape::Isotropic(0.927)));
+    }
+}
+
 #[test]
 fn sampled_directions_have_their_pdf_and_weights_the_albedo() {
     run(&cases(), Effort::QUICK, [Family::new("RoughConductor::sample"), Family::new("mean weights")]);
@@ -310,5 +374,6 @@ fn half_vectors_reflect_back() {
 #[ignore = "long: about a quarter of an hour; see main.rs"]
 fn long_conductor() {
     let families = [Family::long("long RoughConductor::sample"), Family::long("long mean weights")];
-    run(&cases(), Effort::LONG, families);
+    let cases: Vec<_> = cases().into_iter().chain(mixtures()).collect();
+    run(&cases, Effort::LONG, families);
 }

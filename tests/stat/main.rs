@@ -9,6 +9,7 @@ mod chi_square;
 mod conductor;
 mod family;
 mod ks;
+mod mixture;
 mod normals;
 mod points;
 mod quadrature;

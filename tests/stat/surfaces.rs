@@ -1,6 +1,6 @@
 //! The surfaces of the crate behind one interface in f64, and the maps they are seen through, as the test has them.
 
-use microsurface::bsdf::{AllNormals, NormalSampling, RoughConductor};
+use microsurface::bsdf::{AllNormals, NormalSampling, RoughConductor, UniformMixture};
 use microsurface::fresnel::{Perfect, Spectrum};
 use microsurface::map::Map;
 use microsurface::profile::{SampleProfile, SampleVisibleProfile};
@@ -221,4 +221,15 @@ where
 {
     with_map!(T, profile, shape, surface =>
         Box::new(RoughConductor::new(surface, Perfect::new()).sampled_by(AllNormals)))
+}
+
+/// The BRDF sampled by uniform directions with the given probability, and otherwise by all normals.
+pub(crate) fn by_mixture<T, P>(profile: P, shape: Shape, probability: f64) -> Box<dyn Conductor>
+where
+    T: Real + Spectrum<Scalar = T>,
+    P: SampleProfile<T> + 'static,
+{
+    let mixture = UniformMixture::new(AllNormals, T::lit(probability)).expect("a probability");
+    with_map!(T, profile, shape, surface =>
+        Box::new(RoughConductor::new(surface, Perfect::new()).sampled_by(mixture)))
 }

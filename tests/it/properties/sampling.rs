@@ -1,6 +1,6 @@
 //! Samples: where they lie, and that densities and weights belong to them.
 
-use microsurface::bsdf::{AllNormals, NormalSampling, RoughConductor, VisibleNormals};
+use microsurface::bsdf::{AllNormals, NormalSampling, RoughConductor, UniformMixture, VisibleNormals};
 use microsurface::fresnel::{Fresnel, Schlick};
 use microsurface::{Ndf, SampleNdf, SampleVndf};
 use proptest::prelude::*;
@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use super::evaluation::built;
 use super::{Outcome, check, for_both_scalars, near, roundings_of_d, skewness};
 use crate::scalar::{Scalar, dot, unit, wide};
-use crate::strategies::{anywhere, strictly_above, surface, unit_interval, visible_surface};
+use crate::strategies::{anywhere, pairs, strictly_above, surface, unit_interval, visible_surface};
 use crate::surfaces::{Spec, Surface};
 
 for_both_scalars! {
@@ -16,6 +16,8 @@ for_both_scalars! {
     visible_normals_are_visible
     a_sample_of_visible_normals_is_that_of_the_reflection
     a_sample_of_all_normals_is_that_of_the_reflection
+    a_sample_of_a_mixture_is_that_of_the_reflection
+    mixtures_have_the_density_of_the_balance_heuristic
 }
 
 fn is_unit<T: Scalar>(v: [T; 3], roundings: f64) -> Outcome {
@@ -61,6 +63,38 @@ fn a_sample_of_all_normals_is_that_of_the_reflection<T: Scalar>() {
     reflected_samples::<T, _>(surface(), AllNormals, false);
 }
 
+fn a_sample_of_a_mixture_is_that_of_the_reflection<T: Scalar>() {
+    let mixture = |p: f64| UniformMixture::new(AllNormals, T::lit(p)).expect("below 1");
+    reflected_samples::<T, _>(surface(), mixture(0.3), false);
+    reflected_samples::<T, _>(surface(), mixture(0.999), false);
+    let of_visible = UniformMixture::new(VisibleNormals, T::HALF).expect("below 1");
+    reflected_samples::<T, _>(visible_surface(), of_visible, true);
+}
+
+/// p/(2π) + (1 − p) times the pdf of the other sampling; no density below the horizon, nor without a half vector but
+/// the uniform one; a mixture of a mixture is a mixture.
+fn mixtures_have_the_density_of_the_balance_heuristic<T: Scalar>() {
+    let arguments = (surface(), pairs::<T>(), unit_interval::<T>());
+    check(3000, arguments, |(spec, (i, o), p)| {
+        let brdf = RoughConductor::new(built::<T>(&spec)?, Schlick::new(T::lit(0.3))).sampled_by(AllNormals);
+        let once = UniformMixture::new(AllNormals, p).map_err(|_| TestCaseError::reject("p = 1"))?;
+        prop_assert!((once.probability() - p).abs() <= T::HALF * T::HALF * T::EPSILON, "{once:?}");
+        let twice = UniformMixture::new(once, T::HALF).expect("below 1");
+        let (wi, wo) = (i.into(), o.into());
+        let (p, other) = (once.probability(), brdf.pdf(wi, wo));
+        let uniform = |p: T| p * T::HALF * T::FRAC_1_PI;
+        let above = i[2] > T::ZERO && o[2] > T::ZERO;
+        let mix = |p: T, other| if above { uniform(p) + (T::ONE - p) * other } else { T::ZERO };
+        let of_one = brdf.clone().sampled_by(once).pdf(wi, wo);
+        near("the pdf", of_one, mix(p, other), 4.0)?;
+        near("the pdf of both", brdf.clone().sampled_by(twice).pdf(wi, wo), mix(T::HALF, of_one), 4.0)?;
+        let below = i.map(|c| -c).into();
+        let pdf = brdf.sampled_by(once).pdf(below, wo);
+        prop_assert!(pdf == T::ZERO || i[2] == T::ZERO, "{} below the horizon", pdf.hex());
+        Ok(())
+    });
+}
+
 fn reflected_samples<T, S>(surfaces: impl Strategy<Value = Spec>, sampling: S, bounded: bool)
 where
     T: Scalar,
@@ -78,7 +112,7 @@ where
         prop_assert!(sample.weight >= T::ZERO && sample.weight.is_finite(), "{sample:?}");
         let h: [T; 3] = core::array::from_fn(|k| i[k] + o[k]);
         let length = dot(h, h).sqrt();
-        if bounded {
+        if bounded && sampling.constant_density().is_none() {
             let limit = fresnel.reflectance(T::HALF * length) * (T::ONE + T::lit(16.0) * T::EPSILON);
             // The cosine behind the weight is w·m, a few roundings of 1 from |h|/2.
             prop_assert!(
@@ -100,7 +134,9 @@ where
             && pdf > T::MIN_POSITIVE
             && pdf < T::MAX
         {
-            near("weight and f cos/pdf", sample.weight, f / pdf * i[2], 64.0 / length.to_f64())?;
+            // D is in the weight of a mixture.
+            let of_d = if sampling.constant_density().is_some() { 2.0 * roundings } else { 0.0 };
+            near("weight and f cos/pdf", sample.weight, f / pdf * i[2], 64.0 / length.to_f64() + of_d)?;
         }
         Ok(())
     });
