@@ -1,10 +1,10 @@
 //! What does single reflection cost: evaluation, density and sampling of a rough conductor with a scalar Schlick term?
 //!
-//! GGX and Beckmann are sampled by visible normals, GTR by all normals.
+//! GGX and Beckmann are sampled by visible normals, GTR by all normals, with or without uniform directions among them.
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion};
-use microsurface::bsdf::{AllNormals, NormalSampling, RoughConductor, VisibleNormals};
+use microsurface::bsdf::{AllNormals, NormalSampling, RoughConductor, UniformMixture, VisibleNormals};
 use microsurface::fresnel::{Schlick, Spectrum};
 use microsurface::profile::Profile;
 use microsurface::{AxisAligned, Beckmann, Ggx, Gtr, Isotropic, Linear, Microsurface, Ndf, Real, SampleNdf};
@@ -111,11 +111,13 @@ fn each_visible<T: Elementary>(mut ask: impl FnMut(&str, &str, &dyn Sampler<T>))
     each_map("beckmann", VisibleNormals, &mut ask, |alpha| Beckmann::isotropic(alpha).ok());
 }
 
-/// GTR, sampled by all normals, under every map.
+/// GTR, sampled by all normals and by a mixture, under every map.
 fn each_gtr<T: Elementary>(mut ask: impl FnMut(&str, &str, &dyn Sampler<T>)) {
     each_map("gtr-closed-1", AllNormals, &mut ask, |alpha| Gtr::closed::<1>(alpha).ok());
     each_map("gtr-closed-3", AllNormals, &mut ask, |alpha| Gtr::closed::<3>(alpha).ok());
     each_map("gtr-spline-1.5", AllNormals, &mut ask, |alpha| Gtr::spline(alpha, T::lit(1.5)).ok());
+    let mixture = UniformMixture::new(AllNormals, T::lit(0.2)).expect("a probability");
+    each_map("gtr-spline-1.5-mixture", mixture, &mut ask, |alpha| Gtr::spline(alpha, T::lit(1.5)).ok());
 }
 
 fn each_map<T: Elementary, P: Profile<T>, S>(
