@@ -135,9 +135,8 @@ impl<T: Real> Components<T> {
             *block = ((areas[0] + areas[4]) + (areas[1] + areas[5]))
                 + ((areas[2] + areas[6]) + (areas[3] + areas[7]));
         }
-        let sum = ((blocks[0] + blocks[1]) + (blocks[2] + blocks[3])) + (blocks[4] + blocks[5]);
-        let (block, u) = pick(&blocks, u * sum);
-        let (j, u) = pick(&areas[BLOCK * block..BLOCK * (block + 1)], u * blocks[block]);
+        let (block, u) = pick(&blocks, u);
+        let (j, u) = pick(&areas[BLOCK * block..BLOCK * (block + 1)], u);
         (BLOCK * block + j, u)
     }
 
@@ -180,25 +179,29 @@ fn choose_exponent<T: Real>(n: usize, t: T, s2: T, z: T, u: T) -> (usize, T) {
     }
     let mut areas = [T::ZERO; LARGEST_DEGREE + 1];
     let mut remainder = seen.remainder(n);
-    let mut sum = T::ZERO;
     for k in (0..=n).rev() {
         areas[k] = weights[k] * (front + T::HALF * seen.r * remainder);
-        sum += areas[k];
         remainder += T::lit(ROOT_SERIES[k]) * powers[k];
     }
-    pick(&areas[..=n], u * sum)
+    pick(&areas[..=n], u)
 }
 
-/// The term that `target`, between 0 and the sum, falls on, and how far it falls into it, in [0, 1).
+/// The term that u falls on, as a share of their sum, and how far it falls into it, in [0, 1).
+///
+/// Terms that are lost in the rounding of the sum are not chosen, and u below ε/4 counts as ε/4: a component
+/// of no account would give normals of no density.
 #[inline(always)]
-fn pick<T: Real>(terms: &[T], target: T) -> (usize, T) {
+fn pick<T: Real>(terms: &[T], u: T) -> (usize, T) {
+    let total = terms.iter().fold(T::ZERO, |sum, &term| sum + term);
+    let least = T::lit(0.25) * T::EPSILON;
+    let target = if u < least { least } else { u } * total;
     let (mut index, mut start, mut sum) = (0, T::ZERO, T::ZERO);
     for (j, &term) in terms.iter().enumerate() {
-        // Rounding may leave the target above the sum: then it is the last term that is any.
-        if target >= sum && term > T::ZERO {
+        let next = sum + term;
+        if target >= sum && next > sum {
             (index, start) = (j, sum);
         }
-        sum += term;
+        sum = next;
     }
     // Straight from below nothing is seen, and all terms are 0.
     let share = (target - start) / (terms[index] + T::MIN_POSITIVE);
