@@ -33,7 +33,7 @@
 //! |---|---|
 //! | the usual surface | [`Ggx`] |
 //! | a Gaussian surface, exact under filtering and sums | [`Beckmann`] |
-//! | heavier or lighter tails | [`Gtr`] |
+//! | heavier or lighter tails | [`Gtr::isotropic`], at integer γ [`Gtr::closed`]; see [`profile::gtr`] |
 //! | the same roughness in every direction | `isotropic(alpha)` |
 //! | two roughnesses along the axes | `anisotropic(alpha_x, alpha_y)` |
 //! | roughness along any direction | `from_roughness_matrix` with a [`RoughnessMatrix`] |

@@ -130,13 +130,12 @@ impl<T: Real> Components<T> {
             2 => self.areas(2, s2, z),
             n => self.areas(n, s2, z),
         };
-        let mut blocks = [T::ZERO; MOST_COMPONENTS / BLOCK];
-        for (block, areas) in blocks.iter_mut().zip(areas.chunks_exact(BLOCK)) {
-            *block = ((areas[0] + areas[4]) + (areas[1] + areas[5]))
-                + ((areas[2] + areas[6]) + (areas[3] + areas[7]));
+        let mut totals = [T::ZERO; MOST_COMPONENTS / BLOCK];
+        for (sum, areas) in totals.iter_mut().zip(areas.chunks_exact(BLOCK)) {
+            *sum = total(areas);
         }
-        let (block, u) = pick(&blocks, u);
-        let (j, u) = pick(&areas[BLOCK * block..BLOCK * (block + 1)], u);
+        let (block, u) = pick(&totals, total(&totals), u);
+        let (j, u) = pick(&areas[BLOCK * block..BLOCK * (block + 1)], totals[block], u);
         (BLOCK * block + j, u)
     }
 
@@ -183,16 +182,21 @@ fn choose_exponent<T: Real>(n: usize, t: T, s2: T, z: T, u: T) -> (usize, T) {
         areas[k] = weights[k] * (front + T::HALF * seen.r * remainder);
         remainder += T::lit(ROOT_SERIES[k]) * powers[k];
     }
-    pick(&areas[..=n], u)
+    pick(&areas[..=n], total(&areas[..=n]), u)
 }
 
-/// The term that u falls on, as a share of their sum, and how far it falls into it, in [0, 1).
+/// The sum of terms from the first to the last: [`pick`] relies on the order.
+#[inline(always)]
+fn total<T: Real>(terms: &[T]) -> T {
+    terms.iter().fold(T::ZERO, |sum, &term| sum + term)
+}
+
+/// The term that u falls on, as a share of their [`total`], and how far it falls into it, in [0, 1).
 ///
 /// Terms that are lost in the rounding of the sum are not chosen, and u below ε/4 counts as ε/4: a component
 /// of no account would give normals of no density.
 #[inline(always)]
-fn pick<T: Real>(terms: &[T], u: T) -> (usize, T) {
-    let total = terms.iter().fold(T::ZERO, |sum, &term| sum + term);
+fn pick<T: Real>(terms: &[T], total: T, u: T) -> (usize, T) {
     let least = T::lit(0.25) * T::EPSILON;
     let target = if u < least { least } else { u } * total;
     let (mut index, mut start, mut sum) = (0, T::ZERO, T::ZERO);
