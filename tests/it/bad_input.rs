@@ -4,6 +4,8 @@ use microsurface::bsdf::{AllNormals, RoughConductor, UniformMixture};
 use microsurface::fresnel::{Conductor, Dielectric, Fresnel, Perfect, Schlick};
 use microsurface::glam::{DMat2, DVec2, DVec3};
 use microsurface::profile::gtr::Density;
+use microsurface::profile::gtr::components::Components;
+use microsurface::profile::gtr::table::GtrTable;
 use microsurface::roughness::{
     alpha_burley2012, alpha_dimov2015, alpha_pbrt4, alpha_range, alpha_walter2007, alphas_burley2012,
     alphas_kulla2017, alphas_openpbr, checked, clamped,
@@ -43,6 +45,11 @@ fn widths_are_refused<T: Scalar>() {
             Density::new(alpha, one).err(),
             Gtr::spline(alpha, one).err(),
             Gtr::closed::<2>(alpha).err(),
+            Gtr::isotropic(alpha, one).err(),
+            Gtr::with_nodes::<4>(alpha, one).err(),
+            Gtr::heavy_tailed::<4>(alpha, one).err(),
+            Components::new(alpha, one).err(),
+            GtrTable::<T, 4>::new(one, alpha).err(),
         ];
         for error in results {
             let Some(Error::Alpha { value, smallest: low, largest: high }) = error else {
@@ -62,7 +69,46 @@ fn widths_are_refused<T: Scalar>() {
     assert!(checked(smallest).is_ok() && checked(largest).is_ok());
     let wide = T::ONE.stepped(1);
     assert_eq!(Gtr::spline(wide, T::ONE).err(), Some(Error::AlphaAboveOne { value: wide.to_f64() }));
-    assert_eq!(Density::new(wide, T::ONE).err(), Some(Error::AlphaAboveOne { value: wide.to_f64() }));
+    let above_one = Some(Error::AlphaAboveOne { value: wide.to_f64() });
+    assert_eq!(Density::new(wide, T::ONE).err(), above_one);
+    assert_eq!(Gtr::isotropic(wide, T::ONE).err(), above_one);
+    assert_eq!(Gtr::closed::<7>(wide).err(), above_one);
+    assert_eq!(Components::new(wide, T::ONE).err(), above_one);
+    assert_eq!(GtrTable::<T, 4>::new(T::ONE, wide).err(), above_one);
+    let table = GtrTable::<T, 4>::new(T::ONE, T::lit(0.01)).unwrap();
+    assert_eq!(table.isotropic(wide).err(), above_one);
+    assert!(table.isotropic(T::lit(0.01)).is_ok() && table.heavy_tailed(T::ONE).is_ok());
+    let below = T::lit(0.01).stepped(-1);
+    for error in [table.isotropic(below).err(), table.heavy_tailed(below).err()] {
+        let Some(Error::Alpha { value, smallest, largest }) = error else { panic!("{error:?}") };
+        assert_eq!((value, smallest, largest), (below.to_f64(), T::lit(0.01).to_f64(), 1.0));
+    }
+    assert!(matches!(table.isotropic(T::NAN).err(), Some(Error::Alpha { .. })));
+    narrowest_gtr(smallest);
+}
+
+/// Every GTR that the density accepts is a finite one, down to the smallest width.
+fn narrowest_gtr<T: Scalar>(smallest: T) {
+    let grazing = T::Vec3::from([T::lit(0.8), T::lit(0.6), T::lit(1e-3)]);
+    for alpha in [smallest, T::lit(1e-8), T::lit(1e-3), T::ONE.stepped(-1), T::ONE] {
+        for gamma in [0.0, T::TINIEST.to_f64(), 0.5, 1.0, 2.0, 2.5, 4.0, 9.9, 10.0].map(T::lit) {
+            let Ok(surface) = Gtr::isotropic(alpha, gamma) else {
+                assert!(Density::new(alpha, gamma).is_err(), "{} {}", alpha.hex(), gamma.hex());
+                continue;
+            };
+            let table = GtrTable::<T, 8>::new(gamma, smallest).unwrap();
+            let at_hit = table.isotropic(alpha).unwrap();
+            for value in [surface.sigma(grazing), surface.lambda(grazing), at_hit.sigma(grazing)] {
+                assert!(value.is_finite() && value >= T::ZERO, "{} {}: {value}", alpha.hex(), gamma.hex());
+            }
+            for u in [T::ZERO, T::HALF, T::BELOW_ONE] {
+                let normal: [T; 3] = surface.sample_vndf(grazing, [u, u].into()).into();
+                assert!(normal.iter().all(|c| c.is_finite()) && normal[2] >= T::ZERO, "{normal:?}");
+            }
+            let total: f64 = Components::new(alpha, gamma).unwrap().iter().map(|c| c.weight.to_f64()).sum();
+            assert!((total - 1.0).abs() < 1e-5, "{} {}: {total}", alpha.hex(), gamma.hex());
+        }
+    }
 }
 
 #[test]
@@ -82,6 +128,22 @@ fn tail_exponents_are_refused() {
         assert!(value.to_bits() == gamma.to_bits() && largest == 4.0, "{value}");
         assert!(Gtr::spline(0.3, gamma).unwrap_err().to_string().contains(&format!("gamma = {gamma}")));
     }
+    for gamma in [-0.1, -f64::TINIEST, f64::NAN, f64::INFINITY, 10.0_f64.stepped(1)] {
+        for error in [
+            Gtr::isotropic(0.3, gamma).err(),
+            Gtr::with_nodes::<12>(0.3, gamma).err(),
+            Components::new(0.3, gamma).err(),
+            GtrTable::<f64, 8>::new(gamma, 0.01).err(),
+        ] {
+            let Some(Error::Gamma { value, largest }) = error else { panic!("{gamma}") };
+            assert!(value.to_bits() == gamma.to_bits() && largest == 10.0, "{value}");
+        }
+    }
+    let above_two = 2.0_f64.stepped(1);
+    let refused = Some(Error::Gamma { value: above_two, largest: 2.0 });
+    assert_eq!(Gtr::heavy_tailed::<8>(0.3, above_two).err(), refused);
+    assert_eq!(GtrTable::<f64, 8>::new(above_two, 0.01).unwrap().heavy_tailed(0.3).err(), refused);
+    assert!(Gtr::heavy_tailed::<8>(0.3, 2.0).is_ok() && Gtr::isotropic(0.3, -0.0).is_ok());
     for gamma in [-0.1, f64::NAN, f64::INFINITY, 1e4] {
         assert!(matches!(Density::new(0.3, gamma), Err(Error::Gamma { .. })), "{gamma}");
     }

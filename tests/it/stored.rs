@@ -5,6 +5,7 @@ use microsurface::bsdf::{AllNormals, RoughConductor, UniformMixture, VisibleNorm
 use microsurface::fresnel::{Conductor, Dielectric, Schlick};
 use microsurface::glam::DMat2;
 use microsurface::profile::gtr::closed::Closed;
+use microsurface::profile::gtr::mixture::Mixture;
 use microsurface::profile::gtr::spline::Spline;
 use microsurface::{AxisAligned, Beckmann, Ggx, Gtr, Isotropic, Linear, Microsurface, RoughnessMatrix};
 use serde::Serialize;
@@ -27,6 +28,8 @@ fn surfaces_come_back_unchanged() {
         comes_back(&moved);
         comes_back(&moved.stretched(0.3).unwrap());
         comes_back(&Gtr::closed::<1>(alpha).unwrap());
+        comes_back(&Gtr::isotropic(alpha, 2.7).unwrap());
+        comes_back(&Gtr::heavy_tailed::<6>(alpha, 1.2).unwrap());
         comes_back(&Gtr::spline(alpha, 1.7).unwrap().stretched(-0.2).unwrap());
         comes_back(&RoughConductor::new(ggx, Conductor::new(0.2, 3.7).unwrap()));
         comes_back(&RoughConductor::new(moved, Schlick::new(0.04)));
@@ -70,6 +73,8 @@ fn invalid_surfaces_are_refused() {
     let spline = Gtr::spline(0.25, 1.5).unwrap();
     refused::<Surface<Gtr<f64, Spline<f64>>, Isotropic<f64>>>(&spline, "1.5", "4.5", "gamma = 4.5");
     refused::<Surface<Gtr<f64, Spline<f64>>, Isotropic<f64>>>(&spline, "0.25", "1.25", "alpha = 1.25");
+    let mixture = Gtr::isotropic(0.25, 1.5).unwrap();
+    refused::<Surface<Gtr<f64, Mixture<f64, 8>>, Isotropic<f64>>>(&mixture, "1.5", "10.5", "gamma = 10.5");
     let closed = Gtr::closed::<3>(0.25).unwrap();
     refused::<Surface<Gtr<f64, Closed<f64, 3>>, Isotropic<f64>>>(&closed, "3.0", "2.0", "gamma = 2");
     refused::<Dielectric<f64>>(&Dielectric::new(1.5).unwrap(), "1.5", "-1.5", "refractive index = -1.5");

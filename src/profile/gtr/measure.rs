@@ -68,7 +68,8 @@ impl Measure {
         let degree = (0..LARGEST_DEGREE).take_while(|&n| gamma > number(n + 2)).count();
         let p = number(degree + 2) - gamma;
         let alpha2 = alpha * alpha;
-        let points = if gamma == 0.0 {
+        // 1/γ is the weight of the end.
+        let points = if gamma < f64::MIN_POSITIVE {
             Points::One(1.0)
         } else if p == 0.0 {
             Points::One(alpha2)
