@@ -62,9 +62,17 @@ impl<T: Real, const N: usize> GtrTable<T, N> {
     /// The table of γ for α from `smallest_alpha` to 1.
     ///
     /// # Errors
-    /// [`Error::Gamma`] unless 0 ≤ γ ≤ 10; [`Error::Alpha`] or [`Error::AlphaAboveOne`] unless 0 < `smallest_alpha` ≤ 1.
+    /// [`Error::Gamma`] unless 0 ≤ γ ≤ 10; [`Error::Alpha`] or [`Error::AlphaAboveOne`] unless
+    /// 1e-4 ≤ `smallest_alpha` ≤ 1: the knots of a longer table would be too far apart.
     pub fn new(gamma: T, smallest_alpha: T) -> Result<Self, Error> {
         let (exponent, smallest_alpha) = (covered(gamma)?, width(smallest_alpha)?);
+        if smallest_alpha < T::lit(SMALLEST_ALPHA) {
+            return Err(Error::Alpha {
+                value: smallest_alpha.to_f64(),
+                smallest: SMALLEST_ALPHA,
+                largest: 1.0,
+            });
+        }
         // A table of no extent would have no knots apart.
         let first = (2.0 * construction::ln(smallest_alpha.to_f64())).min(-SHORTEST);
         let density = number(KNOTS - 1) / -first;
@@ -156,6 +164,9 @@ impl<T: Real, const N: usize> GtrTable<T, N> {
         (widths2, weights)
     }
 }
+
+/// The smallest α of a table.
+const SMALLEST_ALPHA: f64 = 1e-4;
 
 /// The shortest extent of a table in ln α².
 const SHORTEST: f64 = 1e-2;
