@@ -233,6 +233,7 @@ fn width<T: Real>(alpha: T) -> Result<T, Error> {
 }
 
 /// 1 − α² and ln α². α = 1 counts as the next smaller width, whose distribution differs by its rounding.
+#[inline(always)]
 pub(crate) fn range_and_log(alpha: f64) -> (f64, f64) {
     let range = ((1.0 - alpha) * (1.0 + alpha)).max(f64::EPSILON);
     let log = if alpha < 0.5 { 2.0 * ln(alpha) } else { ln_1p(-range) };
@@ -251,6 +252,7 @@ impl<T: Real> Density<T> {
     }
 
     /// The same of a width that has been checked, with its 1 − α² and ln α².
+    #[inline(always)]
     pub(super) fn of_log(alpha: T, gamma: T, (range, log): (f64, f64)) -> Result<Self, Error> {
         let (a, g) = (alpha.to_f64(), gamma.to_f64());
         let excess = if (g - 1.0).abs() < LIMIT_EXCESS { LIMIT_EXCESS } else { g - 1.0 };

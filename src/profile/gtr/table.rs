@@ -98,7 +98,7 @@ impl<T: Real, const N: usize> GtrTable<T, N> {
     ///
     /// # Errors
     /// [`Error::Alpha`] unless the table reaches down to α, [`Error::AlphaAboveOne`] for α > 1.
-    #[inline]
+    #[inline(always)]
     pub fn isotropic(&self, alpha: T) -> Result<Surface<T, Nodes<T, N>>, Error> {
         self.surface(alpha, |degree, widths2, weights| Nodes::of_rule(degree, widths2, weights))
     }
@@ -107,7 +107,7 @@ impl<T: Real, const N: usize> GtrTable<T, N> {
     ///
     /// # Errors
     /// As [`isotropic`](Self::isotropic), and [`Error::Gamma`] for γ > 2.
-    #[inline]
+    #[inline(always)]
     pub fn heavy_tailed(&self, alpha: T) -> Result<Surface<T, GgxNodes<T, N>>, Error> {
         if self.degree > 0 {
             return Err(Error::Gamma { value: self.gamma.to_f64(), largest: LARGEST_HEAVY });
