@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use microsurface::{Beckmann, Isotropic, Microsurface, Ndf, Real};
 
-use crate::measure::{Errors, Run, calls, degrees, directions, exactly, times};
+use crate::measure::{Errors, both, degrees, directions, exactly, pairs_of_times};
 use crate::reference::lambda_beckmann;
 use crate::report::{Row, report};
 use crate::{ALPHAS, Effort};
@@ -16,10 +16,12 @@ fn surfaces<T: Real>() -> Vec<Surface<T>> {
 }
 
 /// G1 towards facets that face w.
+#[inline(always)]
 fn exact<T: Real>(surface: &Surface<T>, w: T::Vec3) -> T {
     surface.g1(w, w)
 }
 
+#[inline(always)]
 fn walter<T: Real>(surface: &Surface<T>, w: T::Vec3) -> T {
     surface.g1_walter2007(w)
 }
@@ -40,22 +42,25 @@ fn errors<T: Real>(angles: u32, g1: impl Fn(&Surface<T>, T::Vec3) -> T) -> Error
     errors
 }
 
-pub(crate) fn run(effort: Effort, out: &mut impl Write) -> io::Result<()> {
+pub(crate) fn run(effort: &Effort, out: &mut impl Write) -> io::Result<()> {
     let angles = effort.angles * 4;
-    let mut runs: [Run; 4] = [
-        calls::<f32, _>(surfaces(), exact::<f32>),
-        calls::<f64, _>(surfaces(), exact::<f64>),
-        calls::<f32, _>(surfaces(), walter::<f32>),
-        calls::<f64, _>(surfaces(), walter::<f64>),
+    let runs = [
+        both::<f32, _>(surfaces(), exact::<f32>),
+        both::<f32, _>(surfaces(), walter::<f32>),
+        both::<f64, _>(surfaces(), exact::<f64>),
+        both::<f64, _>(surfaces(), walter::<f64>),
     ];
-    let times = times(&mut runs, effort.rounds);
+    let times = pairs_of_times(runs, effort.rounds);
     let errors = [
-        ("exact, f32", errors::<f32>(angles, exact)),
-        ("exact, f64", errors::<f64>(angles, exact)),
-        ("Walter 2007, f32", errors::<f32>(angles, walter)),
-        ("Walter 2007, f64", errors::<f64>(angles, walter)),
+        ("exact", "f32", errors::<f32>(angles, exact)),
+        ("Walter 2007", "f32", errors::<f32>(angles, walter)),
+        ("exact", "f64", errors::<f64>(angles, exact)),
+        ("Walter 2007", "f64", errors::<f64>(angles, walter)),
     ];
-    let rows: Vec<Row> =
-        errors.into_iter().zip(times).map(|((name, errors), ns)| Row::new(name, ns, errors)).collect();
-    report(out, "beckmann_mask", "Beckmann: G1", &rows)
+    let rows: Vec<Row> = errors
+        .into_iter()
+        .zip(times)
+        .map(|((name, scalar, errors), ns)| Row { name: name.into(), scalar, domain: (0.0, 0.0), ns, errors })
+        .collect();
+    report(out, effort, "beckmann_mask", "Beckmann: G1", &rows)
 }

@@ -1,26 +1,27 @@
 //! Time per call against worst error: what an approximation of a mask saves, and what it costs.
 //!
 //! ```text
-//! cargo run --release --example pareto              # about half a minute
-//! cargo run --release --example pareto -- --quick   # coarse grids, rough times
+//! cargo run --release --example pareto                      # about a minute
+//! cargo run --release --example pareto -- --quick           # coarse grids, rough times
+//! cargo run --release --example pareto -- --caption "CPU"   # a line below the charts
 //! ```
 //!
 //! Prints one Markdown table per question and writes it, as CSV and as an SVG chart, to `target/pareto/`. Errors are
 //! absolute differences of G1 from the f64 quadrature of [`reference`], at the very numbers the function was given, so
-//! that the rounding of an argument to f32 is nobody's error. Times are medians of rounds in which the alternatives
-//! take turns; only their ratios mean anything.
+//! that the rounding of an argument to f32 is nobody's error. Times, of scalar calls and of loops over slices, are
+//! medians of rounds in which the alternatives take turns; only their ratios mean anything.
 
 use core::error::Error;
 use std::io;
 
 mod beckmann;
+mod chart;
 mod gtr;
 mod measure;
 mod reference;
 mod report;
 
 /// How finely errors are searched, and how long times are taken.
-#[derive(Clone, Copy)]
 pub(crate) struct Effort {
     /// Directions per material.
     pub(crate) angles: u32,
@@ -28,21 +29,31 @@ pub(crate) struct Effort {
     pub(crate) gammas: u32,
     /// Rounds of timing.
     pub(crate) rounds: usize,
+    /// What stands below the charts.
+    pub(crate) caption: String,
 }
 
 /// The widths of every question.
 pub(crate) const ALPHAS: [f64; 7] = [0.001, 0.01, 0.05, 0.1, 0.2, 0.4, 0.8];
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let quick = std::env::args().any(|argument| argument == "--quick");
+    let mut arguments = std::env::args().skip(1);
+    let (mut quick, mut caption) = (false, String::new());
+    while let Some(argument) = arguments.next() {
+        match argument.as_str() {
+            "--quick" => quick = true,
+            "--caption" => caption = arguments.next().unwrap_or_default(),
+            other => return Err(format!("{other}: neither --quick nor --caption").into()),
+        }
+    }
     let effort = if quick {
-        Effort { angles: 120, gammas: 4, rounds: 20 }
+        Effort { angles: 120, gammas: 4, rounds: 20, caption }
     } else {
-        Effort { angles: 600, gammas: 20, rounds: 300 }
+        Effort { angles: 600, gammas: 20, rounds: 300, caption }
     };
     let mut out = io::stdout().lock();
     reference::validate(&mut out)?;
-    beckmann::run(effort, &mut out)?;
-    gtr::run(effort, &mut out)?;
+    beckmann::run(&effort, &mut out)?;
+    gtr::run(&effort, &mut out)?;
     Ok(())
 }

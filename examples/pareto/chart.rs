@@ -1,0 +1,180 @@
+//! Correct digits over the logarithm of the time, as SVG: a panel for each scalar.
+
+use core::fmt::Write as _;
+
+use crate::report::Row;
+
+const WIDTH: f64 = 860.0;
+const PANEL: f64 = 430.0;
+const LEFT: f64 = 60.0;
+const RIGHT: f64 = 110.0;
+const TOP: f64 = 50.0;
+const BOTTOM: f64 = 40.0;
+/// Of the labels: the width of a letter is a mean, for DejaVu Sans the widest of the usual fonts.
+const LETTER: f64 = 6.3;
+const LINE: f64 = 13.0;
+
+/// Where a panel has its times and digits.
+struct Axes {
+    top: f64,
+    fastest: f64,
+    slowest: f64,
+    most_digits: f64,
+}
+
+impl Axes {
+    fn x(&self, ns: f64) -> f64 {
+        LEFT + (WIDTH - LEFT - RIGHT) * (ns / self.fastest).ln() / (self.slowest / self.fastest).ln()
+    }
+    fn y(&self, digits: f64) -> f64 {
+        self.top + PANEL - BOTTOM - (PANEL - TOP - BOTTOM) * digits / self.most_digits
+    }
+}
+
+/// A rectangle by its left upper corner, width and height.
+#[derive(Clone, Copy)]
+struct Rectangle([f64; 4]);
+
+impl Rectangle {
+    fn overlap(self, Rectangle([x, y, w, h]): Self) -> f64 {
+        let Self([left, top, width, height]) = self;
+        let common = |a: f64, b: f64, c: f64, d: f64| ((a + b).min(c + d) - a.max(c)).max(0.0);
+        common(left, width, x, w) * common(top, height, y, h)
+    }
+}
+
+/// Dots of calls are full, those of loops empty; those of alternatives made for less than the whole range are green. Lines
+/// are the frontiers of those made for all of it.
+pub(crate) fn chart(title: &str, caption: &str, rows: &[Row]) -> String {
+    let scalars = ["f32", "f64"].map(|scalar| rows.iter().filter(move |row| row.scalar == scalar));
+    let times = || rows.iter().flat_map(|row| row.ns);
+    let fastest = 2_f64.powf(times().fold(f64::INFINITY, f64::min).log2().floor());
+    let slowest = 2_f64.powf(times().fold(0.0, f64::max).log2().ceil()).max(2.0 * fastest);
+    let height = 2.0 * PANEL + 30.0;
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" font-family=\"sans-serif\" \
+         font-size=\"11\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
+    );
+    for ((panel, top), most_digits) in scalars.into_iter().zip([0.0, PANEL]).zip([9.0, 18.0]) {
+        let panel: Vec<&Row> = panel.collect();
+        let Some(first) = panel.first() else { continue };
+        let axes = Axes { top, fastest, slowest, most_digits };
+        let _ = writeln!(
+            svg,
+            "<text x=\"{LEFT}\" y=\"{:.0}\" font-size=\"15\">{title}, {}: correct digits over ns, a scalar call ● \
+             or in a loop ○</text>",
+            top + 30.0,
+            first.scalar
+        );
+        grid(&mut svg, &axes);
+        for time in [0, 1] {
+            frontier(&mut svg, &axes, rows, &panel, time);
+        }
+        dots(&mut svg, &axes, rows, &panel);
+    }
+    let _ =
+        writeln!(svg, "<text x=\"{LEFT}\" y=\"{:.0}\" fill=\"gray\">{caption}</text>\n</svg>", height - 14.0);
+    svg
+}
+
+fn grid(svg: &mut String, axes: &Axes) {
+    let (left, right) = (LEFT, WIDTH - RIGHT);
+    let mut line = |from: (f64, f64), to: (f64, f64), style: &str| {
+        let ((x1, y1), (x2, y2)) = (from, to);
+        let _ = writeln!(svg, "<path d=\"M{x1:.1} {y1:.1}L{x2:.1} {y2:.1}\" stroke=\"gray\" {style}/>");
+    };
+    let mut labels = Vec::new();
+    let mut digits = 0.0;
+    while digits < axes.most_digits {
+        let y = axes.y(digits);
+        line((left, y), (right, y), "stroke-opacity=\".3\"");
+        labels.push((left - 8.0, y + 4.0, "end", digits.to_string()));
+        digits += if axes.most_digits > 10.0 { 4.0 } else { 2.0 };
+    }
+    let mut tick = axes.fastest;
+    while tick <= axes.slowest {
+        let x = axes.x(tick);
+        line((x, axes.y(0.0)), (x, axes.y(axes.most_digits)), "stroke-opacity=\".3\"");
+        labels.push((x, axes.y(0.0) + 16.0, "middle", tick.to_string()));
+        tick *= 2.0;
+    }
+    let epsilon = if axes.most_digits > 10.0 { f64::EPSILON } else { f32::EPSILON.into() };
+    let y = axes.y(-epsilon.log10());
+    line((left, y), (right, y), "stroke-dasharray=\"6 4\"");
+    labels.push((right + 8.0, y + 4.0, "start", "ε".into()));
+    for (x, y, anchor, label) in labels {
+        let _ = writeln!(
+            svg,
+            "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\" fill=\"gray\">{label}</text>"
+        );
+    }
+}
+
+/// Made for as much as any.
+fn whole(row: &Row, rows: &[Row]) -> bool {
+    rows.iter().all(|other| row.domain.0 <= other.domain.0 && row.domain.1 >= other.domain.1)
+}
+
+fn frontier(svg: &mut String, axes: &Axes, rows: &[Row], panel: &[&Row], time: usize) {
+    let mut frontier: Vec<_> =
+        panel.iter().filter(|row| whole(row, rows) && row.on_frontier(rows, time)).collect();
+    frontier.sort_by(|a, b| a.ns[time].total_cmp(&b.ns[time]));
+    let points: Vec<String> = frontier
+        .iter()
+        .map(|row| format!("{:.1},{:.1}", axes.x(row.ns[time]), axes.y(row.digits())))
+        .collect();
+    let style = ["", "stroke-dasharray=\"3 2\""][time];
+    let _ =
+        writeln!(svg, "<polyline points=\"{}\" fill=\"none\" stroke=\"crimson\" {style}/>", points.join(" "));
+}
+
+/// A pair of dots a row, joined, and its name where it overlaps least with what is there.
+fn dots(svg: &mut String, axes: &Axes, rows: &[Row], panel: &[&Row]) {
+    let mut taken: Vec<Rectangle> = Vec::new();
+    let positions: Vec<[f64; 3]> =
+        panel.iter().map(|row| [axes.x(row.ns[0]), axes.x(row.ns[1]), axes.y(row.digits())]).collect();
+    for (row, &[call, looped, y]) in panel.iter().zip(&positions) {
+        let colour = if whole(row, rows) { "navy" } else { "seagreen" };
+        let _ = writeln!(
+            svg,
+            "<path d=\"M{call:.1} {y:.1}H{looped:.1}\" stroke=\"{colour}\" stroke-opacity=\".35\"/>\
+             <circle cx=\"{call:.1}\" cy=\"{y:.1}\" r=\"4\" fill=\"{colour}\"/>\
+             <circle cx=\"{looped:.1}\" cy=\"{y:.1}\" r=\"3.5\" fill=\"white\" stroke=\"{colour}\"/>"
+        );
+        taken.extend([call, looped].map(|x| Rectangle([x - 5.0, y - 5.0, 10.0, 10.0])));
+    }
+    for (row, &[call, looped, y]) in panel.iter().zip(&positions) {
+        #[expect(clippy::cast_precision_loss, reason = "a few letters")]
+        let width = LETTER * row.name.chars().count() as f64;
+        let (left, right) = (call.min(looped) - 8.0 - width, call.max(looped) + 8.0);
+        let lines = [0.0, 1.0, -1.0, 2.0, -2.0, 3.0, -3.0, 4.0, -4.0, 5.0, -5.0, 6.0, -6.0].into_iter();
+        let candidates = lines.flat_map(|lines| [(lines, true), (lines, false)]);
+        let place = |(lines, to_right): (f64, bool)| {
+            Rectangle([if to_right { right } else { left }, y + LINE * (lines - 0.5), width, LINE])
+        };
+        let cost = |candidate| {
+            let label = place(candidate);
+            let Rectangle([x, top, ..]) = label;
+            let outside = x < LEFT || x + width > WIDTH || top < axes.top + TOP || top + LINE > axes.y(0.0);
+            let overlap: f64 = taken.iter().map(|&other| label.overlap(other)).sum();
+            overlap + LINE * candidate.0.abs() + if outside { 1e4 } else { 0.0 }
+        };
+        let Some(candidate) = candidates.min_by(|&a, &b| cost(a).total_cmp(&cost(b))) else { continue };
+        let label = place(candidate);
+        taken.push(label);
+        let Rectangle([_, top, ..]) = label;
+        let (anchor, from, at) = if candidate.1 {
+            ("start", call.max(looped), right)
+        } else {
+            ("end", call.min(looped), left + width)
+        };
+        let middle = top + 0.5 * LINE;
+        let _ = writeln!(
+            svg,
+            "<path d=\"M{from:.1} {y:.1}L{at:.1} {middle:.1}\" stroke=\"gray\" stroke-opacity=\".5\"/>"
+        );
+        let (baseline, name) = (top + 10.0, &row.name);
+        let _ =
+            writeln!(svg, "<text x=\"{at:.1}\" y=\"{baseline:.1}\" text-anchor=\"{anchor}\">{name}</text>");
+    }
+}
