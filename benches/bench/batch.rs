@@ -166,6 +166,8 @@ pub(crate) fn bench(criterion: &mut Criterion) {
     for n in SIZES {
         scalar::<f32>(criterion, n);
         scalar::<f64>(criterion, n);
+        gtr::<f32>(criterion, n);
+        gtr::<f64>(criterion, n);
     }
 }
 
@@ -178,6 +180,8 @@ fn scalar<T: Elementary>(criterion: &mut Criterion, n: usize) {
     let beckmann = Beckmann::isotropic(alpha).expect("a width");
     let closed = Gtr::closed::<3>(alpha).expect("a width");
     let spline = Gtr::spline(alpha, T::lit(1.5)).expect("a width");
+    let heavy = Gtr::heavy_tailed::<8>(alpha, T::lit(1.5)).expect("a width");
+    let any = Gtr::isotropic(alpha, T::lit(1.5)).expect("a width");
     let textbook = Width::new(alpha);
 
     compare(
@@ -237,6 +241,8 @@ fn scalar<T: Elementary>(criterion: &mut Criterion, n: usize) {
     let fresnel = Schlick::new(black_box(T::lit(F0)));
     let ggx = RoughConductor::new(ggx, fresnel);
     let beckmann = RoughConductor::new(beckmann, fresnel);
+    let heavy = RoughConductor::new(heavy, fresnel);
+    let any = RoughConductor::new(any, fresnel);
     compare(
         criterion,
         "eval",
@@ -251,6 +257,43 @@ fn scalar<T: Elementary>(criterion: &mut Criterion, n: usize) {
             }),
             ("textbook-ggx", &mut |out| textbook_eval(textbook, wi, wo, out)),
             ("beckmann", &mut |out| eval(&beckmann, wi, wo, out)),
+            ("gtr-heavy-8-nodes-1.5", &mut |out| eval(&heavy, wi, wo, out)),
+            ("gtr-8-nodes-1.5", &mut |out| eval(&any, wi, wo, out)),
+        ],
+    );
+}
+
+/// GTR's masks by nodes, beside the spline and closed forms.
+fn gtr<T: Real>(criterion: &mut Criterion, n: usize) {
+    let directions = Directions::<T>::random(n, &mut generator());
+    let w = directions.slices();
+    let alpha = black_box(T::lit(ALPHA));
+    let spline = Gtr::spline(alpha, T::lit(1.5)).expect("a width");
+    let closed_3 = Gtr::closed::<3>(alpha).expect("a width");
+    let closed_6 = Gtr::closed::<6>(alpha).expect("a width");
+    let heavy = Gtr::heavy_tailed::<8>(alpha, T::lit(1.5)).expect("a width");
+    let gammas = [1.5, 2.5, 3.5].map(T::lit);
+    let four = gammas.map(|gamma| Gtr::with_nodes::<4>(alpha, gamma).expect("a width"));
+    let eight = gammas.map(|gamma| Gtr::isotropic(alpha, gamma).expect("a width"));
+    let twelve = gammas.map(|gamma| Gtr::with_nodes::<12>(alpha, gamma).expect("a width"));
+    compare(
+        criterion,
+        "sigma_gtr",
+        n,
+        &mut [
+            ("spline-1.5", &mut |out| sigma(&spline, w, out)),
+            ("closed-3", &mut |out| sigma(&closed_3, w, out)),
+            ("closed-6", &mut |out| sigma(&closed_6, w, out)),
+            ("heavy-8-nodes-1.5", &mut |out| sigma(&heavy, w, out)),
+            ("4-nodes-1.5", &mut |out| sigma(&four[0], w, out)),
+            ("4-nodes-2.5", &mut |out| sigma(&four[1], w, out)),
+            ("4-nodes-3.5", &mut |out| sigma(&four[2], w, out)),
+            ("8-nodes-1.5", &mut |out| sigma(&eight[0], w, out)),
+            ("8-nodes-2.5", &mut |out| sigma(&eight[1], w, out)),
+            ("8-nodes-3.5", &mut |out| sigma(&eight[2], w, out)),
+            ("12-nodes-1.5", &mut |out| sigma(&twelve[0], w, out)),
+            ("12-nodes-2.5", &mut |out| sigma(&twelve[1], w, out)),
+            ("12-nodes-3.5", &mut |out| sigma(&twelve[2], w, out)),
         ],
     );
 }

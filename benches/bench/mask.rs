@@ -2,7 +2,7 @@
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion};
-use microsurface::{Beckmann, Microsurface, Real, SampleNdf};
+use microsurface::{Beckmann, Gtr, Microsurface, Real, SampleNdf};
 
 use crate::input::{
     CALLS, Question, alphas, calls, directions, each_surface, generator, group, materials, normals,
@@ -32,6 +32,23 @@ impl<T: Real> Question<T> for G1<'_, '_, T> {
     }
 }
 
+/// The masks of GTR beside the spline and the closed forms that every map is asked about, isotropic.
+fn each_gtr<T: Real>(question: &mut impl Question<T>) {
+    for (gamma, [four, eight, twelve]) in [
+        (1.5, ["gtr-4-nodes-1.5", "gtr-8-nodes-1.5", "gtr-12-nodes-1.5"]),
+        (2.5, ["gtr-4-nodes-2.5", "gtr-8-nodes-2.5", "gtr-12-nodes-2.5"]),
+        (3.5, ["gtr-4-nodes-3.5", "gtr-8-nodes-3.5", "gtr-12-nodes-3.5"]),
+    ] {
+        let gamma = T::lit(gamma);
+        question.ask(four, "isotropic", &materials(|alpha| Gtr::with_nodes::<4>(alpha, gamma).ok()));
+        question.ask(eight, "isotropic", &materials(|alpha| Gtr::with_nodes::<8>(alpha, gamma).ok()));
+        question.ask(twelve, "isotropic", &materials(|alpha| Gtr::with_nodes::<12>(alpha, gamma).ok()));
+    }
+    let heavy = materials(|alpha| Gtr::heavy_tailed::<8>(alpha, T::lit(1.5)).ok());
+    question.ask("gtr-heavy-8-nodes-1.5", "isotropic", &heavy);
+    question.ask("gtr-closed-6", "isotropic", &materials(|alpha| Gtr::closed::<6>(alpha).ok()));
+}
+
 pub(crate) fn bench(criterion: &mut Criterion) {
     scalar::<f32>(criterion);
     scalar::<f64>(criterion);
@@ -45,6 +62,7 @@ fn scalar<T: Elementary>(criterion: &mut Criterion) {
 
     let mut sigma = group::<T>(criterion, "sigma");
     each_surface(&mut Sigma::<T>(&mut sigma, &w));
+    each_gtr(&mut Sigma::<T>(&mut sigma, &w));
     sigma.finish();
 
     let mut lambda = group::<T>(criterion, "lambda");

@@ -39,6 +39,10 @@ fn scalar<T: Elementary>(criterion: &mut Criterion) {
 
     let mut eval = group::<T>(criterion, "reflection_eval");
     each_surface(&mut Eval::<T>(&mut eval, &pairs));
+    let heavy = materials(|alpha| Gtr::heavy_tailed::<8>(alpha, T::lit(1.5)).ok());
+    Eval::<T>(&mut eval, &pairs).ask("gtr-heavy-8-nodes-1.5", "isotropic", &heavy);
+    let any = materials(|alpha| Gtr::isotropic(alpha, T::lit(1.5)).ok());
+    Eval::<T>(&mut eval, &pairs).ask("gtr-8-nodes-1.5", "isotropic", &any);
     let arrays: Vec<([T; 3], [T; 3])> = pairs.iter().map(|&(wi, wo)| (wi.into(), wo.into())).collect();
     let widths: Vec<_> = alphas::<T>().into_iter().map(Width::new).collect();
     let width_pairs: Vec<_> = alphas::<T>().into_iter().map(Anisotropic::new).collect();

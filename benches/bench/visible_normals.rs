@@ -3,7 +3,7 @@
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion};
 use microsurface::profile::SampleVisibleProfile;
-use microsurface::{Beckmann, Ggx, Isotropic, Microsurface, Real, SampleVndf};
+use microsurface::{Beckmann, Ggx, Gtr, Isotropic, Microsurface, Real, SampleVndf};
 
 use crate::input::{
     CALLS, alphas, calls, directions, generator, group, materials, stretched, transformed, uniform,
@@ -26,6 +26,14 @@ fn scalar<T: Elementary>(criterion: &mut Criterion) {
 
     each_map::<T, _>(&mut group, "ggx", &vectors, |alpha| Ggx::isotropic(alpha).ok());
     each_map::<T, _>(&mut group, "beckmann", &vectors, |alpha| Beckmann::isotropic(alpha).ok());
+    for (gamma, name) in [(0.7, "gtr-0.7"), (1.5, "gtr-1.5"), (2.5, "gtr-2.5"), (3.4, "gtr-3.4")] {
+        let surfaces = materials(|alpha| Gtr::isotropic(alpha, T::lit(gamma)).ok());
+        calls(&mut group, (name, "isotropic"), &surfaces, &vectors, |s, (w, u)| s.sample_vndf(w, u));
+    }
+    let closed = materials(|alpha| Gtr::<T, _>::closed::<1>(alpha).ok());
+    calls(&mut group, ("gtr-closed-1", "isotropic"), &closed, &vectors, |s, (w, u)| s.sample_vndf(w, u));
+    let closed = materials(|alpha| Gtr::<T, _>::closed::<3>(alpha).ok());
+    calls(&mut group, ("gtr-closed-3", "isotropic"), &closed, &vectors, |s, (w, u)| s.sample_vndf(w, u));
 
     let widths: Vec<_> = alphas::<T>().into_iter().map(Width::new).collect();
     let pairs: Vec<_> = alphas::<T>().into_iter().map(Anisotropic::new).collect();
