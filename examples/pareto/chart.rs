@@ -70,7 +70,7 @@ pub(crate) fn chart(title: &str, caption: &str, rows: &[Row]) -> String {
         for time in [0, 1] {
             frontier(&mut svg, &axes, rows, &panel, time);
         }
-        dots(&mut svg, &axes, rows, &panel);
+        dots(&mut svg, &axes, &panel);
     }
     let _ =
         writeln!(svg, "<text x=\"{LEFT}\" y=\"{:.0}\" fill=\"gray\">{caption}</text>\n</svg>", height - 14.0);
@@ -110,14 +110,14 @@ fn grid(svg: &mut String, axes: &Axes) {
     }
 }
 
-/// Made for as much as any.
-fn whole(row: &Row, rows: &[Row]) -> bool {
-    rows.iter().all(|other| row.domain.0 <= other.domain.0 && row.domain.1 >= other.domain.1)
+/// Made for as much as any of the same scalar.
+fn whole(row: &Row, panel: &[&Row]) -> bool {
+    panel.iter().all(|other| row.domain.0 <= other.domain.0 && row.domain.1 >= other.domain.1)
 }
 
 fn frontier(svg: &mut String, axes: &Axes, rows: &[Row], panel: &[&Row], time: usize) {
     let mut frontier: Vec<_> =
-        panel.iter().filter(|row| whole(row, rows) && row.on_frontier(rows, time)).collect();
+        panel.iter().filter(|row| whole(row, panel) && row.on_frontier(rows, time)).collect();
     frontier.sort_by(|a, b| a.ns[time].total_cmp(&b.ns[time]));
     let points: Vec<String> = frontier
         .iter()
@@ -129,12 +129,12 @@ fn frontier(svg: &mut String, axes: &Axes, rows: &[Row], panel: &[&Row], time: u
 }
 
 /// A pair of dots a row, joined, and its name where it overlaps least with what is there.
-fn dots(svg: &mut String, axes: &Axes, rows: &[Row], panel: &[&Row]) {
+fn dots(svg: &mut String, axes: &Axes, panel: &[&Row]) {
     let mut taken: Vec<Rectangle> = Vec::new();
     let positions: Vec<[f64; 3]> =
         panel.iter().map(|row| [axes.x(row.ns[0]), axes.x(row.ns[1]), axes.y(row.digits())]).collect();
     for (row, &[call, looped, y]) in panel.iter().zip(&positions) {
-        let colour = if whole(row, rows) { "navy" } else { "seagreen" };
+        let colour = if whole(row, panel) { "navy" } else { "seagreen" };
         let _ = writeln!(
             svg,
             "<path d=\"M{call:.1} {y:.1}H{looped:.1}\" stroke=\"{colour}\" stroke-opacity=\".35\"/>\

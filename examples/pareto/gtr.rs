@@ -36,7 +36,7 @@ type Choose = fn(&mut Alternative) -> Option<[Run; 2]>;
 
 /// The exponents of a question.
 const UP_TO_4: RangeInclusive<f64> = 0.0..=4.0;
-const FROM_4: RangeInclusive<f64> = 4.0..=10.0;
+const ABOVE_4: RangeInclusive<f64> = 4.01..=10.0;
 
 /// A mask: its errors at the points of the grid where it exists, and its times.
 struct Alternative {
@@ -44,7 +44,7 @@ struct Alternative {
     scalar: &'static str,
     errors: Vec<AtPoint>,
     up_to_4: Option<[Run; 2]>,
-    from_4: Option<[Run; 2]>,
+    above_4: Option<[Run; 2]>,
 }
 
 struct AtPoint {
@@ -75,8 +75,8 @@ impl Alternative {
             let surfaces = few(&within.map(|(_, surface)| surface.clone()).collect::<Vec<N>>());
             (!surfaces.is_empty()).then(|| both::<T, _>(surfaces, g1))
         };
-        let (up_to_4, from_4) = (runs(&UP_TO_4), runs(&FROM_4));
-        Self { name: name.into(), scalar: core::any::type_name::<T>(), errors, up_to_4, from_4 }
+        let (up_to_4, above_4) = (runs(&UP_TO_4), runs(&ABOVE_4));
+        Self { name: name.into(), scalar: core::any::type_name::<T>(), errors, up_to_4, above_4 }
     }
 
     fn closed<T: Real, const G: u8>(grid: &Grid<T>) -> Self {
@@ -153,7 +153,7 @@ pub(crate) fn run(effort: &Effort, out: &mut impl Write) -> io::Result<()> {
 
     let questions: [(&str, &str, _, Choose); 2] = [
         ("gtr_mask", "GTR: G1, γ from 0 to 4", UP_TO_4, |alternative| alternative.up_to_4.take()),
-        ("gtr_mask_above_4", "GTR: G1, γ from 4 to 10", FROM_4, |alternative| alternative.from_4.take()),
+        ("gtr_mask_above_4", "GTR: G1, γ above 4, to 10", ABOVE_4, |alternative| alternative.above_4.take()),
     ];
     for (file, title, gammas, choose) in questions {
         let (mut rows, mut runs) = (Vec::new(), Vec::new());

@@ -1,7 +1,7 @@
 //! Time per call against worst error: what an approximation of a mask saves, and what it costs.
 //!
 //! ```text
-//! cargo run --release --example pareto                      # about a minute
+//! cargo run --release --example pareto                      # about half a minute
 //! cargo run --release --example pareto -- --quick           # coarse grids, rough times
 //! cargo run --release --example pareto -- --caption "CPU"   # a line below the charts
 //! ```
