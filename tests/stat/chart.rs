@@ -6,9 +6,11 @@
 //! so that equal rectangles are cells of equal probability and a quadrature over a cell is exact to rounding. Where
 //! one of them is wrong the chart is still a bijection with a known Jacobian, and the test is still valid.
 
+mod mixed;
 mod polar;
 mod view;
 
+pub(crate) use mixed::Mixed;
 pub(crate) use polar::{Polar, Radial, Reflecting};
 pub(crate) use view::{Cap, View, VisibleProfile};
 
@@ -25,6 +27,35 @@ pub(crate) trait Chart {
 
     /// The unit normal of these coordinates, and the solid angle dω/(du₁ du₂) there.
     fn point(&self, coordinates: [f64; 2]) -> ([f64; 3], f64);
+}
+
+/// The root of an increasing function: bisection to a bracket of 0.06, then the Illinois variant of the false position.
+/// What precision is lost moves a node of the quadrature, not its integral.
+fn root(excess: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+    while high - low > 0.06 {
+        let middle = 0.5 * (low + high);
+        if excess(middle) < 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    let (mut at_low, mut at_high) = (excess(low), excess(high));
+    for _ in 0..40 {
+        let xi = high - at_high * (high - low) / (at_high - at_low);
+        let value = excess(xi);
+        if value.abs() < 1e-15 || !(low < xi && xi < high) {
+            return xi.clamp(low, high);
+        }
+        if value < 0.0 {
+            (low, at_low) = (xi, value);
+            at_high *= 0.5;
+        } else {
+            (high, at_high) = (xi, value);
+            at_low *= 0.5;
+        }
+    }
+    0.5 * (low + high)
 }
 
 /// R = M⁻¹ by rows, the inverse of the map that takes a profile to the surface.

@@ -30,6 +30,8 @@ pub(crate) struct Subject<'a> {
     pub(crate) density: &'a dyn Fn([f64; 3]) -> f64,
     /// Whether the density may integrate to less than 1, by the share of samples that are none.
     pub(crate) misses: bool,
+    /// By how much the integral may be off because the mask is approximate; expectations are then shares of it.
+    pub(crate) masking: f64,
     /// The unit roundoff of the scalar under test.
     pub(crate) epsilon: f64,
 }
@@ -127,7 +129,7 @@ pub(crate) fn test(mut subject: Subject<'_>, effort: Effort, points: &mut dyn Po
     let masses = Quadrature::new(subject.chart, subject.density, effort.depth).grid(&edges, &tolerance);
     let mass = total(&masses);
     // The integrals are sums of numbers that carry a rounding of the density, up to some 10 ε, each.
-    let allowance = mass.error + 64.0 * subject.epsilon + 1e-9;
+    let allowance = mass.error + 64.0 * subject.epsilon + 1e-9 + subject.masking;
     let excess = if subject.misses { mass.value - 1.0 } else { (mass.value - 1.0).abs() };
     let mut impossible =
         (excess > allowance).then(|| format!("the density integrates to {} ± {allowance:.1e}", mass.value));
@@ -138,11 +140,16 @@ pub(crate) fn test(mut subject: Subject<'_>, effort: Effort, points: &mut dyn Po
         }
     }
     let (counts, none) = histogram(&mut subject, effort.samples, &edges, points, &mut impossible);
+    let scale = if subject.masking > 0.0 { n / mass.value } else { n };
     let mut cells: Vec<Cell> = masses
         .iter()
         .zip(counts)
         .zip(places(&edges))
-        .map(|((mass, observed), place)| Cell { place, observed: count(observed), expected: n * mass.value })
+        .map(|((mass, observed), place)| Cell {
+            place,
+            observed: count(observed),
+            expected: scale * mass.value,
+        })
         .collect();
     if subject.misses {
         let expected = (n * (1.0 - mass.value)).max(0.0);

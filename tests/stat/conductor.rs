@@ -122,6 +122,7 @@ impl Case {
             },
             density: &|m| self.of_half_vector(m, pdf),
             misses: true,
+            masking: 0.0,
             epsilon: self.surface.epsilon(),
         };
         test(subject, effort, &mut Random::new(seed, self.surface.bits()))

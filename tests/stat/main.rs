@@ -8,6 +8,7 @@ mod chart;
 mod chi_square;
 mod conductor;
 mod family;
+mod gtr_visible;
 mod ks;
 mod mixture;
 mod normals;

@@ -37,6 +37,7 @@ impl Case {
             sample: &mut |u| Some(self.surface.sample_d(u)),
             density: &|m| other.surface.pdf_d(m),
             misses: false,
+            masking: 0.0,
             epsilon: self.surface.epsilon(),
         };
         test(subject, effort, points)
@@ -192,6 +193,7 @@ fn wrong_densities_of_all_normals_are_rejected() {
                 sample: &mut |u| Some(case.surface.sample_d(warp(u))),
                 density: &|m| scale * case.surface.pdf_d(m),
                 misses: false,
+                masking: 0.0,
                 epsilon: case.surface.epsilon(),
             };
             test(subject, effort, &mut Random::new(4, 53))

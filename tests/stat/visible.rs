@@ -60,6 +60,7 @@ impl Case {
             sample: &mut |u| Some(self.surface.sample_vndf(self.w, u)),
             density,
             misses: false,
+            masking: 0.0,
             epsilon: self.surface.epsilon(),
         };
         test(subject, effort, points)
@@ -202,7 +203,7 @@ fn wrong_densities_of_visible_normals_are_rejected() {
 }
 
 /// Points mapped wrongly.
-struct Warped(Random, fn([f64; 2]) -> [f64; 2]);
+pub(crate) struct Warped(pub(crate) Random, pub(crate) fn([f64; 2]) -> [f64; 2]);
 
 impl Points for Warped {
     fn point(&mut self, i: usize) -> [f64; 2] {

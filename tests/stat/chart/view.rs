@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use super::{Chart, Inverse};
+use super::{Chart, Inverse, root};
 use crate::special::{erfc, erfcx};
 
 /// The two profiles whose visible slopes separate.
@@ -93,36 +93,10 @@ impl Chart for View {
         }
     }
 
-    /// In asinh of the coordinate: bisection to a bracket of 0.06, then the Illinois variant of the false position.
-    /// What precision is lost moves a node of the quadrature, not its integral.
+    /// In asinh of the coordinate.
     fn quantile(&self, axis: usize, u: f64) -> f64 {
-        let excess = |xi: f64| self.cdf(axis, xi.sinh()) - u;
         let end = if axis == 0 { self.nu.asinh() } else { 30.0 };
-        let (mut low, mut high) = (-60.0, end);
-        while high - low > 0.06 {
-            let middle = 0.5 * (low + high);
-            if excess(middle) < 0.0 {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        let (mut at_low, mut at_high) = (excess(low), excess(high));
-        for _ in 0..40 {
-            let xi = high - at_high * (high - low) / (at_high - at_low);
-            let value = excess(xi);
-            if value.abs() < 1e-15 || !(low < xi && xi < high) {
-                return xi.clamp(low, high).sinh();
-            }
-            if value < 0.0 {
-                (low, at_low) = (xi, value);
-                at_high *= 0.5;
-            } else {
-                (high, at_high) = (xi, value);
-                at_low *= 0.5;
-            }
-        }
-        (0.5 * (low + high)).sinh()
+        root(|xi| self.cdf(axis, xi.sinh()) - u, -60.0, end).sinh()
     }
 
     fn cdf(&self, axis: usize, c: f64) -> f64 {
