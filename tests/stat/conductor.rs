@@ -5,6 +5,7 @@
 //! reflect below the horizon have no density; the samples that are none belong to them and make a cell of their own,
 //! whose expectation is what the integral of the pdf lacks to 1.
 
+use microsurface::profile::{SampleProfile, SampleVisibleProfile};
 use microsurface::{Beckmann, Ggx, Gtr, Real};
 
 use crate::chart::{Chart, Polar, Radial, Reflecting};
@@ -24,6 +25,8 @@ enum Distribution {
     Beckmann,
     /// γ = 1 with its exact mask.
     Berry(f64),
+    /// α and γ.
+    Gtr(f64, f64),
 }
 
 /// A BRDF seen from a direction.
@@ -44,43 +47,44 @@ enum Normals {
     Mixed(f64),
 }
 
+/// The BRDF of a profile and its surface.
+fn built<T, P>(profile: P, normals: Normals, shape: Shape) -> (Box<dyn Conductor>, Box<dyn Surface>)
+where
+    T: Real + microsurface::fresnel::Spectrum<Scalar = T>,
+    P: SampleVisibleProfile<T> + SampleProfile<T> + Copy + 'static,
+{
+    let brdf = match normals {
+        Normals::Visible => by_visible_normals::<T, _>(profile, shape),
+        Normals::All => by_all_normals::<T, _>(profile, shape),
+        Normals::Mixed(p) => by_mixture::<T, _>(profile, shape, p),
+    };
+    (brdf, surface::<T, _>(profile, shape))
+}
+
 impl Case {
     fn new<T>(distribution: Distribution, normals: Normals, shape: Shape, degrees: f64) -> Self
     where
         T: Real + microsurface::fresnel::Spectrum<Scalar = T>,
     {
-        let berry = |alpha: f64| *Gtr::closed::<1>(T::lit(alpha)).expect("a width").profile();
-        let (brdf, surface, radial) = match (distribution, normals) {
-            (Distribution::Ggx, Normals::Visible) => {
-                (by_visible_normals::<T, _>(Ggx, shape), surface::<T, _>(Ggx, shape), Radial::Ggx)
+        let (brdf, surface, radial) = match distribution {
+            Distribution::Ggx => {
+                let (brdf, surface) = built::<T, _>(Ggx, normals, shape);
+                (brdf, surface, Radial::Ggx)
             }
-            (Distribution::Ggx, Normals::All) => {
-                (by_all_normals::<T, _>(Ggx, shape), surface::<T, _>(Ggx, shape), Radial::Ggx)
+            Distribution::Beckmann => {
+                let (brdf, surface) = built::<T, _>(Beckmann, normals, shape);
+                (brdf, surface, Radial::Beckmann)
             }
-            (Distribution::Beckmann, Normals::Visible) => (
-                by_visible_normals::<T, _>(Beckmann, shape),
-                surface::<T, _>(Beckmann, shape),
-                Radial::Beckmann,
-            ),
-            (Distribution::Beckmann, Normals::All) => {
-                (by_all_normals::<T, _>(Beckmann, shape), surface::<T, _>(Beckmann, shape), Radial::Beckmann)
+            Distribution::Berry(alpha) => {
+                let berry = *Gtr::closed::<1>(T::lit(alpha)).expect("a width").profile();
+                let (brdf, surface) = built::<T, _>(berry, normals, shape);
+                (brdf, surface, Radial::gtr(alpha, 1.0))
             }
-            (Distribution::Ggx, Normals::Mixed(p)) => {
-                (by_mixture::<T, _>(Ggx, shape, p), surface::<T, _>(Ggx, shape), Radial::Ggx)
+            Distribution::Gtr(alpha, gamma) => {
+                let gtr = *Gtr::isotropic(T::lit(alpha), T::lit(gamma)).expect("in range").profile();
+                let (brdf, surface) = built::<T, _>(gtr, normals, shape);
+                (brdf, surface, Radial::gtr(alpha, gamma))
             }
-            (Distribution::Beckmann, Normals::Mixed(p)) => {
-                (by_mixture::<T, _>(Beckmann, shape, p), surface::<T, _>(Beckmann, shape), Radial::Beckmann)
-            }
-            (Distribution::Berry(alpha), Normals::Mixed(p)) => (
-                by_mixture::<T, _>(berry(alpha), shape, p),
-                surface::<T, _>(berry(alpha), shape),
-                Radial::gtr(alpha, 1.0),
-            ),
-            (Distribution::Berry(alpha), _) => (
-                by_all_normals::<T, _>(berry(alpha), shape),
-                surface::<T, _>(berry(alpha), shape),
-                Radial::gtr(alpha, 1.0),
-            ),
         };
         let scalar = if surface.bits() == 24 { 32 } else { 64 };
         let label = format!("{distribution:?}, {normals:?} normals, {shape:?} f{scalar} at {degrees} deg");
@@ -231,6 +235,14 @@ fn cases() -> Vec<Case> {
     for (alpha, shape) in [(0.05, Shape::Isotropic(1.0)), (0.3, Shape::Moved(0.8, SKEW))] {
         for degrees in [0.0, 60.0] {
             cases.push(Case::new::<f64>(Distribution::Berry(alpha), Normals::All, shape, degrees));
+            cases.push(Case::new::<f64>(Distribution::Berry(alpha), Normals::Visible, shape, degrees));
+        }
+        for gamma in [1.5, 3.4] {
+            for degrees in [0.0, 60.0, 85.0] {
+                let gtr = Distribution::Gtr(alpha, gamma);
+                cases.push(Case::new::<f64>(gtr, Normals::Visible, shape, degrees));
+            }
+            cases.push(Case::new::<f32>(Distribution::Gtr(alpha, gamma), Normals::Visible, shape, 30.0));
         }
     }
     cases

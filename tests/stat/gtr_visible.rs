@@ -21,6 +21,9 @@ fn masking(w: [f64; 3]) -> f64 {
     if w[2] < 0.0 { 1e-2 } else { 1e-4 }
 }
 
+/// Fewer columns than elsewhere, as the chart inverts the second coordinate numerically.
+const QUICK: Effort = Effort { columns: 6, ..Effort::QUICK };
+
 /// The ways to make a surface other than `Gtr::isotropic`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Kind {
@@ -174,7 +177,7 @@ fn run(mut family: Family, cases: &[Case], effort: Effort) {
 
 #[test]
 fn sample_vndf_of_gtr_has_its_density() {
-    run(Family::new("sample_vndf of GTR"), &cases_in_turn(), Effort::QUICK);
+    run(Family::new("sample_vndf of GTR"), &cases_in_turn(), QUICK);
 }
 
 /// The chart owes nothing to the crate: that vndf is flat in it to what its few components leave tests vndf, point by
@@ -199,7 +202,7 @@ fn vndf_of_gtr_is_flat_in_its_chart() {
 
 #[test]
 fn wrong_densities_of_visible_normals_of_gtr_are_rejected() {
-    let effort = Effort { samples: 400_000, ..Effort::QUICK };
+    let (fine, effort) = (Effort { samples: 300_000, ..QUICK }, QUICK);
     for (alpha, gamma) in [(0.5, 0.7), (0.1, 1.5), (0.05, 2.0), (0.2, 2.5), (0.05, 3.4), (0.4, 6.0)] {
         let make = |alpha, gamma, shape| Case::new::<f64>(alpha, gamma, shape, 60.0, 3);
         let axes = Shape::Axes(0.8, 1.1);
@@ -208,16 +211,13 @@ fn wrong_densities_of_visible_normals_of_gtr_are_rejected() {
         let reject = |case: &Case, wrong: &Case, why: &str| {
             let sample = |u| case.surface.sample_vndf(case.w, u);
             let density = |m| wrong.surface.vndf(case.w, m);
-            assert_rejected(&case.against(&sample, &density, why, effort, &mut Random::new(1, 53)));
+            assert_rejected(&case.against(&sample, &density, why, fine, &mut Random::new(1, 53)));
         };
         // Most of the slopes of a heavy tail are far from the peak and do not depend on its width.
         let percent = if gamma < 1.0 { 6.0 } else { 3.0 };
-        for k in [1.0 - 0.01 * percent, 1.0 + 0.01 * percent] {
-            reject(&case, &make(k * alpha, gamma, skew), &format!(", alpha off by {percent} %"));
-        }
-        for step in [-0.1, 0.1] {
-            reject(&case, &make(alpha, gamma + step, skew), ", gamma off by 0.1");
-        }
+        let wider = make((1.0 + 0.01 * percent) * alpha, gamma, skew);
+        reject(&case, &wider, &format!(", alpha off by {percent} %"));
+        reject(&case, &make(alpha, gamma + 0.1, skew), ", gamma off by 0.1");
         reject(&make(alpha, gamma, axes), &make(alpha, gamma, axes.swapped()), ", axes swapped");
         reject(&case, &make(alpha, gamma, skew.transposed()), ", transposed map");
         let own = |m| case.surface.vndf(case.w, m);

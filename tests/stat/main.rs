@@ -8,6 +8,7 @@ mod chart;
 mod chi_square;
 mod conductor;
 mod family;
+mod gtr_rejection;
 mod gtr_visible;
 mod ks;
 mod mixture;

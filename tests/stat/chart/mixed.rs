@@ -209,7 +209,9 @@ impl Chart for Mixed {
         let (density, across) = self.across(x);
         let scale = self.alpha.hypot(x);
         let target = (u - 0.5).abs();
-        let y = scale * root(|xi| share(&across, scale * xi.sinh()) - target, 0.0, 40.0).sinh();
+        // All but (1/1000)³ of the widest profile.
+        let end = (1000.0 * x.hypot(1.0) / scale).asinh();
+        let y = scale * root(|xi| share(&across, scale * xi.sinh()) - target, 0.0, end).sinh();
         let y = y.copysign(u - 0.5);
         let [c, s] = self.along;
         let (m, area) = self.inverse.normal([c * x - s * y, s * x + c * y]);
