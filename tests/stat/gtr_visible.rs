@@ -47,22 +47,28 @@ fn other_kinds(gamma: f64) -> Vec<Kind> {
 
 fn build(kind: Kind, alpha: f64, gamma: f64, shape: Shape) -> Box<dyn Visible> {
     match kind {
-        Kind::WithNodes => visible::<f64, _>(*Gtr::with_nodes::<12>(alpha, gamma).unwrap().profile(), shape),
-        Kind::HeavyTailed => {
-            visible::<f64, _>(*Gtr::heavy_tailed::<8>(alpha, gamma).unwrap().profile(), shape)
+        Kind::WithNodes => {
+            visible::<f64, _>(*Gtr::with_nodes::<12>(alpha, gamma).expect("in range").profile(), shape)
         }
-        Kind::Closed if gamma < 2.0 => visible::<f64, _>(*Gtr::closed::<1>(alpha).unwrap().profile(), shape),
-        Kind::Closed if gamma < 4.0 => visible::<f64, _>(*Gtr::closed::<3>(alpha).unwrap().profile(), shape),
-        Kind::Closed => visible::<f64, _>(*Gtr::closed::<6>(alpha).unwrap().profile(), shape),
+        Kind::HeavyTailed => {
+            visible::<f64, _>(*Gtr::heavy_tailed::<8>(alpha, gamma).expect("in range").profile(), shape)
+        }
+        Kind::Closed if gamma < 2.0 => {
+            visible::<f64, _>(*Gtr::closed::<1>(alpha).expect("in range").profile(), shape)
+        }
+        Kind::Closed if gamma < 4.0 => {
+            visible::<f64, _>(*Gtr::closed::<3>(alpha).expect("in range").profile(), shape)
+        }
+        Kind::Closed => visible::<f64, _>(*Gtr::closed::<6>(alpha).expect("in range").profile(), shape),
         Kind::Table => {
-            let table = GtrTable::<f64, 8>::new(gamma, 1e-3).unwrap();
-            visible::<f64, _>(*table.isotropic(alpha).unwrap().profile(), shape)
+            let table = GtrTable::<f64, 8>::new(gamma, 1e-3).expect("in range");
+            visible::<f64, _>(*table.isotropic(alpha).expect("in range").profile(), shape)
         }
     }
 }
 
 fn general<T: Real>(alpha: f64, gamma: f64, shape: Shape) -> Box<dyn Visible> {
-    let surface = Gtr::isotropic(T::lit(alpha), T::lit(gamma)).unwrap();
+    let surface = Gtr::isotropic(T::lit(alpha), T::lit(gamma)).expect("in range");
     visible::<T, _>(*surface.profile(), shape)
 }
 

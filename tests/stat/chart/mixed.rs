@@ -83,7 +83,7 @@ fn mixture(alpha: f64, gamma: f64) -> Vec<Component> {
         return vec![component(alpha2, 1.0)];
     }
     let start = alpha2.ln() - END;
-    let steps = (0..).take_while(|&i| start + STEP * f64::from(i - 1) < END).count();
+    let steps = (0..1000).take_while(|&i| start + STEP * f64::from(i - 1) < END).count();
     let points = (0..steps).map(|i| {
         let y = (start + STEP * number(i)).exp();
         // What is left beyond either end is a geometric series.
