@@ -3,7 +3,7 @@
 //! x = m·2ᵏ with √½ ≤ m < √2, f = m − 1, s = f/(2 + f): ln m = ln((1+s)/(1−s)) = f − s·(f − s²·P(s²)), and the
 //! first f is split off half its square so that little is lost to rounding (fdlibm's arrangement).
 
-use super::exp::{exp_of_normal_range, exp_of_sum};
+use super::exp::{exp_of_normal_range, exp_of_sum, round};
 use super::exp_wide;
 use super::kernel::{Kernel, polynomial};
 use crate::real::Real;
@@ -194,6 +194,28 @@ pub(crate) fn inverse_power_of_ratio<T: Real>(numerator: T::Wide, denominator: T
     let two = T::Wide::TWO;
     let ln = k * T::Wide::lit(core::f64::consts::LN_2) + s * (two + z * polynomial(z, T::LN_WIDE));
     exp_of_normal_range::<T>(-g.widen() * ln)
+}
+
+/// x^−g of a normal x ≥ 1 and 0 ≤ g ≤ 1 in the scalar itself, where its rounding of x may be borne.
+///
+/// log₂ x = k + l with |l| ≤ ½. The products of k with both halves of g are exact, and so is their difference from the
+/// integer part of the exponent: only what is below 1 is rounded, to 6e-8 in f32.
+#[inline(always)]
+pub(crate) fn inverse_root<T: Real>(x: T, g: T) -> T {
+    if !T::WIDENS {
+        return pow_wide(x.widen(), -g);
+    }
+    let (m, k) = x.split_exponent();
+    let f = m - T::ONE;
+    let s = f / (T::TWO + f);
+    let z = s * s;
+    let l = s * (T::TWO + z * polynomial(z, T::LN)) * T::lit(core::f64::consts::LOG2_E);
+    let high = g.upper_half();
+    let (a, b) = (high * k, (g - high) * k);
+    let rest = b + g * l;
+    let n = round(-(a + rest));
+    let r = ((-a - n) - rest) * T::lit(core::f64::consts::LN_2);
+    (T::ONE + (r + r * r * polynomial(r, T::EXP))) * n.exp2_of_integer()
 }
 
 /// x^g where no wider scalar is at hand: the logarithm and its product are carried as sums of two.

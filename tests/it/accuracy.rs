@@ -118,6 +118,16 @@ fn densities<T: Real>() {
                 worst.add_relative(d, number(columns[8]), &columns);
             }
             assert!(worst.count > 30, "{ndf} {domain}: {}", worst.count);
+            if ndf == "gtr" {
+                let mut heavy = Worst::default();
+                for columns in rows(NDF).filter(|c| c[0] == ndf && c[7] == near && number(c[3]) <= 2.0) {
+                    let [alpha, gamma] = [1, 3].map(|i| T::lit(number(columns[i])));
+                    let d = Gtr::heavy_tailed::<4>(alpha, gamma).unwrap().d(vector::<T>(&columns[4..7]));
+                    heavy.add_relative(d, number(columns[8]), &columns);
+                }
+                assert!(heavy.count > 30, "{domain}: {}", heavy.count);
+                assert_within::<T>("gtr_heavy_d", domain, heavy.error, &heavy.input);
+            }
             assert_within::<T>(&format!("{ndf}_d"), domain, worst.error, &worst.input);
         }
     }
@@ -223,7 +233,7 @@ fn uniform(rng: &mut rand_pcg::Pcg64Mcg) -> f64 {
 #[test]
 fn f32_agrees_with_f64_densely() {
     let mut rng = rand_pcg::Pcg64Mcg::new(7);
-    let names = ["ggx", "beckmann", "gtr"];
+    let names = ["ggx", "beckmann", "gtr", "gtr_heavy"];
     let mut density = names.map(|_| Worst::default());
     let mut mask = names.map(|_| Worst::default());
     for _ in 0..400_000 {
@@ -248,6 +258,13 @@ fn f32_agrees_with_f64_densely() {
                     let (s, w) = (Beckmann::isotropic(a).unwrap(), Beckmann::isotropic(aw).unwrap());
                     ([s.d(narrow), s.g1(narrow, narrow)], [w.d(wide), w.g1(wide, wide)])
                 }
+                3 => {
+                    // Four nodes: only the rounding is compared.
+                    let g = f32::lit(0.2 * f64::from(gamma));
+                    let heavy = Gtr::heavy_tailed::<4>(a, g).unwrap();
+                    let exact = Gtr::heavy_tailed::<4>(aw, f64::from(g)).unwrap();
+                    ([heavy.d(narrow), heavy.g1(narrow, narrow)], [exact.d(wide), exact.g1(wide, wide)])
+                }
                 _ => {
                     let (s, w) = (Gtr::closed::<1>(a).unwrap(), Gtr::closed::<1>(aw).unwrap());
                     let (d, dw) =
@@ -258,7 +275,7 @@ fn f32_agrees_with_f64_densely() {
             [f64::from(s), f64::from(l), sw, lw]
         };
         let input = format!("α {alpha} aspect {aspect} γ {gamma} m {m:?}");
-        for i in 0..3 {
+        for i in 0..names.len() {
             let [d, g1, d_wide, g1_wide] = pair(i);
             if d_wide > f64::from(f32::MIN_POSITIVE) {
                 density[i].add(f32::lit(d), d_wide, d_wide, &[&input]);

@@ -8,7 +8,9 @@ use crate::Real;
 use crate::error::Error;
 use crate::profile::SampleVisibleProfile;
 use crate::profile::ggx::Ggx;
-use crate::profile::gtr::integer::{LARGEST_DEGREE, ROOT_SERIES, Seen, number, series, student_weights};
+use crate::profile::gtr::integer::{
+    LARGEST_DEGREE, ROOT_SERIES, Seen, flushed, number, series, student_weights,
+};
 use crate::profile::gtr::measure::{Measure, Resolution, covered};
 use crate::profile::gtr::{visible, width};
 
@@ -84,7 +86,7 @@ impl<T: Real> Components<T> {
             degree: measure.degree,
             count,
             widths2: widths2.map(T::lit),
-            weights: weights.map(|weight| T::lit(weight * scale)),
+            weights: weights.map(|weight| flushed(T::lit(weight * scale))),
         }
     }
 
@@ -160,7 +162,8 @@ impl<T: Real> Components<T> {
         let mut areas = [T::ZERO; MOST_COMPONENTS];
         for j in 0..MOST_COMPONENTS {
             let seen = Seen::new(self.widths2[j], s2, z.abs());
-            areas[j] = self.weights[j] * (twice_front + seen.twice_backfacing(degree, |i| series[i][j]));
+            areas[j] =
+                self.weights[j] * (twice_front + seen.twice_backfacing_of_many(degree, |i| series[i][j]));
         }
         areas
     }

@@ -32,6 +32,10 @@ pub(super) const ROOT_SERIES: [f64; LARGEST_DEGREE + 1] = root_series();
 /// Row n: the coefficients of Tₙ/(1−c)^{n+1}, from c⁰. Exact.
 const REMAINDERS: [[f64; LARGEST_DEGREE]; LARGEST_DEGREE + 1] = remainders();
 
+/// d whose (n + 1)th power is 1e-37, about the smallest normal f32.
+const LEAST: [f64; LARGEST_DEGREE + 1] =
+    [1e-37, 3.2e-19, 4.7e-13, 5.7e-10, 4.0e-8, 6.9e-7, 5.2e-6, 2.4e-5, 7.8e-5];
+
 const fn root_series() -> [f64; LARGEST_DEGREE + 1] {
     let mut a = [1.0; LARGEST_DEGREE + 1];
     a[1] = 0.5;
@@ -61,6 +65,12 @@ const fn remainders() -> [[f64; LARGEST_DEGREE]; LARGEST_DEGREE + 1] {
         n += 1;
     }
     rows
+}
+
+/// `x`, or 0 where it is so small that it only makes products denormal, which take a microcode assist each.
+#[inline(always)]
+pub(super) fn flushed<T: Real>(x: T) -> T {
+    if x < T::MIN_POSITIVE / (T::EPSILON * T::EPSILON) { T::ZERO } else { x }
 }
 
 /// C(n, k)/(k + 1).
@@ -164,5 +174,18 @@ impl<T: Real> Seen<T> {
             sum = (sum + series(i)) * self.rho;
         }
         self.r * (self.remainder(n) + sum)
+    }
+
+    /// The same of one component of many, without what is of no account beside the others and would only make products
+    /// denormal, each of which takes a microcode assist.
+    #[inline(always)]
+    pub(super) fn twice_backfacing_of_many(&self, n: usize, series: impl Fn(usize) -> T) -> T {
+        let mut sum = T::ZERO;
+        for i in (0..n).rev() {
+            sum = if sum < T::MIN_POSITIVE / T::EPSILON { T::ZERO } else { sum };
+            sum = (sum + series(i)) * self.rho;
+        }
+        let d = if T::WIDENS && self.d < T::lit(LEAST[n]) { T::ZERO } else { self.d };
+        self.r * (Self { d, ..*self }.remainder(n) + sum)
     }
 }

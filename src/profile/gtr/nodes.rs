@@ -15,14 +15,18 @@
 //! | 8 | 8e-6 | 3.6e-7 | 4e-9 | 4e-12 |
 //! | 12 | 1.3e-7 | 1.2e-9 | 1.6e-12 | |
 //!
+//! Below the horizon σ is the area zΛ alone, a share of the tail: its relative error, and that of ∫D_w, reaches 5e-3 with 8
+//! nodes (γ = 2.5, α = 0.001, 150°). Samples have the density of D all the same.
+//!
 //! The Gauss rule is in ln t because widths spread over decades: in t itself 8 nodes are off by 0.2 at α = 0.001.
 
 use crate::Real;
+use crate::elementary::inverse_root;
 use crate::error::Error;
 use crate::map::Isotropic;
 use crate::microsurface::Microsurface;
 use crate::profile::gtr::gauss::{MOST_POINTS, gauss};
-use crate::profile::gtr::integer::{LARGEST_DEGREE, ROOT_SERIES, Seen, series};
+use crate::profile::gtr::integer::{LARGEST_DEGREE, ROOT_SERIES, Seen, flushed, series};
 use crate::profile::gtr::measure::{Measure, Resolution, covered};
 use crate::profile::gtr::{Gtr, Masking, VisibleMasking};
 use crate::real::construction::{exp, ln};
@@ -69,7 +73,7 @@ impl<T: Real, const N: usize> GgxNodes<T, N> {
     #[inline(always)]
     pub(super) fn of_rule(t: [T; N], weights: [T; N]) -> Self {
         let factor = T::HALF / sum::<T, N>(|j| weights[j]);
-        Self { widths2: t, half_weights: weights.map(|w| factor * w) }
+        Self { widths2: t, half_weights: weights.map(|w| flushed(factor * w)) }
     }
 
     #[inline(always)]
@@ -108,7 +112,11 @@ fn sum<T: Real, const N: usize>(term: impl FnMut(usize) -> T) -> T {
 impl<T: Real, const N: usize> Nodes<T, N> {
     #[inline(always)]
     pub(super) fn of_rule(degree: usize, t: [T; N], weights: [T; N]) -> Self {
-        Self { ggx: GgxNodes::of_rule(t, weights), degree, series: series(degree, &t) }
+        Self {
+            ggx: GgxNodes::of_rule(t, weights),
+            degree,
+            series: series(degree, &t).map(|row| row.map(flushed)),
+        }
     }
 
     /// σ of exponents above 2: with Tₙ + c = 1 − Σ aᵢ ρⁱ it takes one root and one quotient a node.
@@ -134,7 +142,7 @@ impl<T: Real, const N: usize> Nodes<T, N> {
     fn backfacing(&self, degree: usize, s2: T, z: T) -> T {
         sum::<T, N>(|j| {
             let seen = Seen::new(self.ggx.widths2[j], s2, z);
-            self.ggx.half_weights[j] * seen.twice_backfacing(degree, |i| self.series[i][j])
+            self.ggx.half_weights[j] * seen.twice_backfacing_of_many(degree, |i| self.series[i][j])
         })
     }
 }
@@ -147,6 +155,12 @@ impl<T: Real, const N: usize> Masking<T> for GgxNodes<T, N> {
         }
         let (_, t, weights) = rule(alpha.to_f64(), value);
         Ok(Self::of_rule(t.map(T::lit), weights.map(T::lit)))
+    }
+
+    /// For γ ≤ 2 the rounding of the ratio is at most doubled.
+    #[inline(always)]
+    fn root_of_power(n: T::Wide, d: T::Wide, gamma: T) -> T {
+        inverse_root(T::narrow(n / d), T::HALF * gamma)
     }
 
     #[inline(always)]

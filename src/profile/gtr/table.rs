@@ -26,7 +26,7 @@ type Surface<T, K> = Microsurface<Gtr<T, K>, Isotropic<T>>;
 
 /// GTR of one γ for many α, with masks of `N` nodes.
 ///
-/// A table of 8 nodes takes 5 kB (f32) or 10 kB (f64) and a millisecond to make; a surface from it about as long as a
+/// A table of 8 nodes takes 5 kB (f32) or 10 kB (f64) and half a millisecond to make; a surface from it about as long as a
 /// logarithm and an exponential. Visible normals are those of the exact density, drawn from components that are
 /// made for each sample.
 ///
