@@ -1,10 +1,10 @@
 //! The pictures: which materials, in which rows and columns.
 
-use microsurface::bsdf::{AllNormals, RoughConductor, VisibleNormals};
+use microsurface::bsdf::RoughConductor;
 use microsurface::fresnel::Perfect;
 use microsurface::glam::{Mat2, Vec3};
 use microsurface::roughness::RoughnessMatrix;
-use microsurface::{Beckmann, Error, Ggx, Gtr, Ndf, SampleNdf, SampleVndf};
+use microsurface::{Beckmann, Error, Ggx, Gtr, Ndf, SampleVndf};
 
 use crate::material::Material;
 use crate::metals::{ALUMINIUM, COPPER, GOLD, Metal};
@@ -12,8 +12,6 @@ use crate::metals::{ALUMINIUM, COPPER, GOLD, Metal};
 /// A material of a picture.
 pub(crate) struct Entry {
     pub(crate) label: String,
-    /// Which normals are sampled.
-    pub(crate) sampling: &'static str,
     pub(crate) material: Box<dyn Material>,
     /// The same surface, reflecting everything.
     pub(crate) furnace: Box<dyn Material>,
@@ -27,29 +25,16 @@ pub(crate) struct Picture {
     pub(crate) rows: Vec<Vec<Entry>>,
 }
 
-/// A surface of metal sampled by its visible normals.
-fn visible<N>(label: String, surface: N, metal: &Metal) -> Result<Entry, Error>
+/// A surface of metal, sampled by its visible normals.
+fn entry<N>(label: String, surface: N, metal: &Metal) -> Result<Entry, Error>
 where
     N: SampleVndf + Ndf<Scalar = f32> + Copy + Sync + 'static,
 {
+    let material = RoughConductor::new(surface, metal.fresnel()?);
     Ok(Entry {
         label,
-        sampling: "visible",
-        material: Box::new(RoughConductor::new(surface, metal.fresnel()?)),
-        furnace: Box::new(RoughConductor::<_, _, VisibleNormals>::new(surface, Perfect::<Vec3>::new())),
-    })
-}
-
-/// A surface of metal sampled by all its normals: the visible ones of GTR have no simple sampler.
-fn all<N>(label: String, surface: N, metal: &Metal) -> Result<Entry, Error>
-where
-    N: SampleNdf + Ndf<Scalar = f32> + Copy + Sync + 'static,
-{
-    Ok(Entry {
-        label,
-        sampling: "all",
-        material: Box::new(RoughConductor::new(surface, metal.fresnel()?).sampled_by(AllNormals)),
-        furnace: Box::new(RoughConductor::new(surface, Perfect::<Vec3>::new()).sampled_by(AllNormals)),
+        material: Box::new(material),
+        furnace: Box::new(material.with_fresnel(Perfect::<Vec3>::new())),
     })
 }
 
@@ -59,13 +44,13 @@ pub(crate) fn tails() -> Result<Picture, Error> {
         let metal = &ALUMINIUM;
         let gtr = |gamma: &str| format!("GTR gamma={gamma}, alpha={alpha}");
         Ok(vec![
-            all(gtr("0.5 (spline)"), Gtr::spline(alpha, 0.5)?, metal)?,
-            all(gtr("1"), Gtr::closed::<1>(alpha)?, metal)?,
-            all(gtr("1.5 (spline)"), Gtr::spline(alpha, 1.5)?, metal)?,
-            visible(format!("GGX, alpha={alpha}"), Ggx::isotropic(alpha)?, metal)?,
-            all(gtr("3"), Gtr::closed::<3>(alpha)?, metal)?,
-            all(gtr("4"), Gtr::closed::<4>(alpha)?, metal)?,
-            visible(format!("Beckmann, alpha={alpha}"), Beckmann::isotropic(alpha)?, metal)?,
+            entry(gtr("0.5"), Gtr::isotropic(alpha, 0.5)?, metal)?,
+            entry(gtr("1"), Gtr::closed::<1>(alpha)?, metal)?,
+            entry(gtr("1.5"), Gtr::isotropic(alpha, 1.5)?, metal)?,
+            entry(format!("GGX, alpha={alpha}"), Ggx::isotropic(alpha)?, metal)?,
+            entry(gtr("3"), Gtr::closed::<3>(alpha)?, metal)?,
+            entry(gtr("4"), Gtr::closed::<4>(alpha)?, metal)?,
+            entry(format!("Beckmann, alpha={alpha}"), Beckmann::isotropic(alpha)?, metal)?,
         ])
     };
     Ok(Picture {
@@ -89,31 +74,31 @@ pub(crate) fn brushed() -> Result<Picture, Error> {
     let matrix = |angle| RoughnessMatrix::rotated(along, across, angle);
 
     let beckmann = vec![
-        visible(format!("Beckmann, alpha={ALPHA}"), Beckmann::isotropic(ALPHA)?, metal)?,
-        visible(format!("Beckmann, {widths} x"), Beckmann::anisotropic(along, across)?, metal)?,
-        visible(format!("Beckmann, {widths} y"), Beckmann::anisotropic(across, along)?, metal)?,
-        visible(format!("Beckmann, {widths} 45°"), Beckmann::from_roughness_matrix(matrix(turn)?), metal)?,
-        visible(format!("Beckmann, {widths} -45°"), Beckmann::from_roughness_matrix(matrix(-turn)?), metal)?,
+        entry(format!("Beckmann, alpha={ALPHA}"), Beckmann::isotropic(ALPHA)?, metal)?,
+        entry(format!("Beckmann, {widths} x"), Beckmann::anisotropic(along, across)?, metal)?,
+        entry(format!("Beckmann, {widths} y"), Beckmann::anisotropic(across, along)?, metal)?,
+        entry(format!("Beckmann, {widths} 45°"), Beckmann::from_roughness_matrix(matrix(turn)?), metal)?,
+        entry(format!("Beckmann, {widths} -45°"), Beckmann::from_roughness_matrix(matrix(-turn)?), metal)?,
     ];
     let ggx = vec![
-        visible(format!("GGX, alpha={ALPHA}"), Ggx::isotropic(ALPHA)?, metal)?,
-        visible(format!("GGX, {widths} x"), Ggx::anisotropic(along, across)?, metal)?,
-        visible(format!("GGX, {widths} y"), Ggx::anisotropic(across, along)?, metal)?,
-        visible(format!("GGX, {widths} 45°"), Ggx::from_roughness_matrix(matrix(turn)?), metal)?,
-        visible(format!("GGX, {widths} -45°"), Ggx::from_roughness_matrix(matrix(-turn)?), metal)?,
+        entry(format!("GGX, alpha={ALPHA}"), Ggx::isotropic(ALPHA)?, metal)?,
+        entry(format!("GGX, {widths} x"), Ggx::anisotropic(along, across)?, metal)?,
+        entry(format!("GGX, {widths} y"), Ggx::anisotropic(across, along)?, metal)?,
+        entry(format!("GGX, {widths} 45°"), Ggx::from_roughness_matrix(matrix(turn)?), metal)?,
+        entry(format!("GGX, {widths} -45°"), Ggx::from_roughness_matrix(matrix(-turn)?), metal)?,
     ];
     // The same by moving the microsurface, which any profile can be.
-    let spline = Gtr::spline(ALPHA, 1.5)?;
+    let surface = Gtr::isotropic(ALPHA, 1.5)?;
     let rotation = Mat2::from_angle(turn);
-    let moved = "GTR gamma=1.5 (spline)";
+    let moved = "GTR gamma=1.5";
     let gtr = vec![
-        all(format!("{moved}, alpha={ALPHA}"), spline, metal)?,
-        all(format!("{moved}, stretched by {STRETCH}"), spline.stretched(STRETCH)?, metal)?,
-        all(format!("{moved}, stretched by -{STRETCH}"), spline.stretched(-STRETCH)?, metal)?,
-        all(format!("{moved}, turned 45°"), spline.stretched(STRETCH)?.transformed(rotation)?, metal)?,
-        all(
+        entry(format!("{moved}, alpha={ALPHA}"), surface, metal)?,
+        entry(format!("{moved}, stretched by {STRETCH}"), surface.stretched(STRETCH)?, metal)?,
+        entry(format!("{moved}, stretched by -{STRETCH}"), surface.stretched(-STRETCH)?, metal)?,
+        entry(format!("{moved}, turned 45°"), surface.stretched(STRETCH)?.transformed(rotation)?, metal)?,
+        entry(
             format!("{moved}, turned -45°"),
-            spline.stretched(STRETCH)?.transformed(rotation.transpose())?,
+            surface.stretched(STRETCH)?.transformed(rotation.transpose())?,
             metal,
         )?,
     ];
@@ -131,7 +116,7 @@ pub(crate) fn metals() -> Result<Picture, Error> {
     let row = |metal: &Metal| -> Result<Vec<Entry>, Error> {
         [0.005, 0.05, 0.12, 0.25, 0.5]
             .into_iter()
-            .map(|alpha| visible(format!("{}, GGX alpha={alpha}", metal.name), Ggx::isotropic(alpha)?, metal))
+            .map(|alpha| entry(format!("{}, GGX alpha={alpha}", metal.name), Ggx::isotropic(alpha)?, metal))
             .collect()
     };
     Ok(Picture {
@@ -146,7 +131,7 @@ pub(crate) fn metals() -> Result<Picture, Error> {
 /// The material of a mesh.
 pub(crate) fn mesh() -> Result<Picture, Error> {
     let brushed = Ggx::anisotropic(0.08, 0.3)?;
-    let entry = visible("gold, GGX alpha=0.08 (across 0.3) along x".to_owned(), brushed, &GOLD)?;
+    let entry = entry("gold, GGX alpha=0.08 (across 0.3) along x".to_owned(), brushed, &GOLD)?;
     Ok(Picture {
         name: "mesh",
         title: "A mesh of gold, brushed along x, around the vertical axis.".to_owned(),

@@ -28,7 +28,7 @@ pub(crate) fn print_legend() {
     println!(
         "\
 E(mu)      share of white light from everywhere that leaves at cosine mu to the normal, single reflection with
-           height-correlated masking and reflectance 1: mean weight of the material's own sampler; the digits in
+           height-correlated masking and reflectance 1: mean weight of samples by visible normals; the digits in
            brackets are the standard error of the last digits. What is missing from 1 is reflected more than once.
 deviation  largest difference of these from a quadrature that does not sample, in standard errors
            (fails above {LARGEST_DEVIATION}; the quadrature counts as uncertain by {})
@@ -41,14 +41,14 @@ samples/s  of sample() on one thread, in millions",
 /// Prints the materials of a picture, one line each.
 pub(crate) fn print_table(picture: &Picture, samples: u32, verdict: &mut Verdict) {
     println!("\n{}.png  {}", picture.name, picture.title);
-    print!("  {:54} {:8}", "row.column  material", "normals");
+    print!("  {:54}", "row.column  material");
     for cos in COSINES {
         print!(" {:>11}", format!("E({cos:.1})"));
     }
     println!("  deviation  albedo             samples/s");
     for (r, row) in picture.rows.iter().enumerate() {
         for (c, entry) in row.iter().enumerate() {
-            print!("  {}.{}  {:49} {:8}", r + 1, c + 1, entry.label, entry.sampling);
+            print!("  {}.{}  {:49}", r + 1, c + 1, entry.label);
             print_numbers(entry, samples, (10 * r + c) as u64, verdict);
         }
     }
