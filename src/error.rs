@@ -49,6 +49,11 @@ pub enum Error {
         /// The determinant of the map.
         determinant: f64,
     },
+    /// A triangle of a mesh names a vertex that does not exist.
+    Mesh {
+        /// Its index.
+        triangle: usize,
+    },
     /// A stretch is not inside (−1, 1).
     Stretch {
         /// The stretch given.
@@ -98,6 +103,7 @@ impl fmt::Display for Error {
             Self::Map { determinant } => {
                 write!(f, "the map with determinant {determinant} is singular, not finite or out of range")
             }
+            Self::Mesh { triangle } => write!(f, "triangle {triangle} names a vertex that does not exist"),
             Self::Stretch { value } => write!(f, "stretch = {value} is not inside (-1, 1)"),
             Self::RefractiveIndex { value } => {
                 write!(f, "refractive index = {value} is not positive and finite")

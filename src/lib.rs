@@ -94,6 +94,7 @@ pub mod ndf;
 pub mod profile;
 pub mod real;
 pub mod roughness;
+pub mod transform;
 mod vector;
 
 pub use glam;

@@ -171,7 +171,7 @@ impl<P: SampleVisibleProfile<M::Scalar>, M: Map> SampleVndf for Microsurface<P, 
 /// sum, and would have no density. Nearly all samples are farther from the edge than that, which one comparison
 /// tells.
 #[inline(always)]
-fn turned_into_view<T: Real>(w: [T; 3], m: [T; 3]) -> [T; 3] {
+pub(crate) fn turned_into_view<T: Real>(w: [T; 3], m: [T; 3]) -> [T; 3] {
     let (w_m, length2) = (dot(w, m), dot(m, m));
     // 16ε|m| bounds the rounding of w·m, here and once more by whoever uses the sample: 3ε Σ|terms| ≤ 3√3 ε|m| each.
     // Squares that are no normal numbers tell nothing.

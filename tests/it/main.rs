@@ -22,3 +22,4 @@ mod scalar;
 mod stored;
 mod strategies;
 mod surfaces;
+mod transform;
