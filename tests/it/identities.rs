@@ -4,6 +4,8 @@
 //!
 //! Deviations are printed with `--nocapture`; the limits below are at most twice the worst of them.
 
+mod random_maps;
+
 use microsurface::bsdf::{AllNormals, RoughConductor};
 use microsurface::fresnel::Perfect;
 use microsurface::ndf::{Ndf, SampleNdf};

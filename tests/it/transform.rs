@@ -97,7 +97,8 @@ fn transforms_compose_in_their_order() {
         let wrong = beckmann.transformed(a * b).unwrap().roughness_matrix().unwrap().entries();
         assert!((0..3).any(|i| (p[i] - wrong[i]).abs() > 1e-6 * size), "{p:?} {wrong:?}");
         // And back to where it was.
-        let [xx, xy, yy] = twice.transformed((b * a).inverse()).unwrap().roughness_matrix().unwrap().entries();
+        let [xx, xy, yy] =
+            twice.transformed((b * a).inverse()).unwrap().roughness_matrix().unwrap().entries();
         assert!((xx - 0.16).abs() < 1e-9 && xy.abs() < 1e-9 && (yy - 0.81).abs() < 1e-9, "{xx} {xy} {yy}");
     }
 }

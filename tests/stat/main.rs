@@ -18,4 +18,5 @@ mod quadrature;
 mod special;
 mod stratification;
 mod surfaces;
+mod transformed;
 mod visible;

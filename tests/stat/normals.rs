@@ -30,7 +30,13 @@ impl Case {
     }
 
     /// The sampler of this surface against the density of `other`.
-    fn against(&self, other: &Self, why: &str, effort: Effort, points: &mut dyn Points) -> Outcome {
+    pub(crate) fn against(
+        &self,
+        other: &Self,
+        why: &str,
+        effort: Effort,
+        points: &mut dyn Points,
+    ) -> Outcome {
         let subject = Subject {
             label: format!("{}{why}", self.label),
             chart: &self.polar,

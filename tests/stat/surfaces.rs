@@ -2,7 +2,6 @@
 
 use microsurface::bsdf::{AllNormals, NormalSampling, RoughConductor, UniformMixture};
 use microsurface::fresnel::{Perfect, Spectrum};
-use microsurface::map::Map;
 use microsurface::profile::{SampleProfile, SampleVisibleProfile};
 use microsurface::roughness::RoughnessMatrix;
 use microsurface::{AxisAligned, Isotropic, Linear, Microsurface, Ndf, Real, SampleNdf, SampleVndf};
@@ -106,31 +105,31 @@ pub(crate) trait Visible: Surface {
     fn sample_vndf(&self, w: [f64; 3], u: [f64; 2]) -> [f64; 3];
 }
 
-impl<P: SampleProfile<M::Scalar>, M: Map> Surface for Microsurface<P, M> {
+impl<N: SampleNdf> Surface for N {
     fn bits(&self) -> u32 {
-        bits::<M::Scalar>()
+        bits::<N::Scalar>()
     }
     fn epsilon(&self) -> f64 {
-        M::Scalar::EPSILON.to_f64()
+        N::Scalar::EPSILON.to_f64()
     }
     fn sample_d(&self, u: [f64; 2]) -> [f64; 3] {
-        array::<M::Scalar>(SampleNdf::sample_d(self, numbers::<M::Scalar>(u)))
+        array::<N::Scalar>(SampleNdf::sample_d(self, numbers::<N::Scalar>(u)))
     }
     fn pdf_d(&self, m: [f64; 3]) -> f64 {
-        SampleNdf::pdf_d(self, vector::<M::Scalar>(m)).to_f64()
+        SampleNdf::pdf_d(self, vector::<N::Scalar>(m)).to_f64()
     }
     fn vndf(&self, w: [f64; 3], m: [f64; 3]) -> f64 {
-        Ndf::vndf(self, vector::<M::Scalar>(w), vector::<M::Scalar>(m)).to_f64()
+        Ndf::vndf(self, vector::<N::Scalar>(w), vector::<N::Scalar>(m)).to_f64()
     }
     fn g2_separable_over_g2(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
-        let [i, o] = [wi, wo].map(|w| self.lambda(vector::<M::Scalar>(w)).to_f64());
+        let [i, o] = [wi, wo].map(|w| self.lambda(vector::<N::Scalar>(w)).to_f64());
         (1.0 + i + o) / ((1.0 + i) * (1.0 + o))
     }
 }
 
-impl<P: SampleVisibleProfile<M::Scalar> + SampleProfile<M::Scalar>, M: Map> Visible for Microsurface<P, M> {
+impl<N: SampleNdf + SampleVndf> Visible for N {
     fn sample_vndf(&self, w: [f64; 3], u: [f64; 2]) -> [f64; 3] {
-        array::<M::Scalar>(SampleVndf::sample_vndf(self, vector::<M::Scalar>(w), numbers::<M::Scalar>(u)))
+        array::<N::Scalar>(SampleVndf::sample_vndf(self, vector::<N::Scalar>(w), numbers::<N::Scalar>(u)))
     }
 }
 

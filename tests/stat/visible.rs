@@ -47,7 +47,7 @@ impl Case {
     }
 
     /// The sampler of this case against a density.
-    fn against(
+    pub(crate) fn against(
         &self,
         density: &dyn Fn([f64; 3]) -> f64,
         why: &str,
