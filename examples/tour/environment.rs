@@ -10,7 +10,7 @@ use core::f32::consts::{PI, TAU};
 use microsurface::glam::{Vec2, Vec3};
 
 /// A soft-edged rectangle of light.
-struct Softbox {
+pub(crate) struct Softbox {
     /// Right, up and towards the light.
     axes: [Vec3; 3],
     /// Half the width and height, seen from distance 1.
@@ -19,7 +19,7 @@ struct Softbox {
 }
 
 impl Softbox {
-    fn new(towards: Vec3, half: Vec2, radiance: Vec3) -> Self {
+    pub(crate) fn new(towards: Vec3, half: Vec2, radiance: Vec3) -> Self {
         let z = towards.normalize();
         let x = Vec3::Y.cross(z).normalize();
         Self { axes: [x, z.cross(x), z], half, radiance }
@@ -42,6 +42,8 @@ const ROWS: usize = 256;
 
 /// The environment, and how likely each of its cells is sampled.
 pub(crate) struct Environment {
+    /// The sky's radiance at the horizon and at the zenith.
+    sky: [Vec3; 2],
     lights: Vec<Softbox>,
     /// Cumulative shares of the rows, and of the cells of each row.
     rows: Vec<f32>,
@@ -57,7 +59,12 @@ impl Environment {
             Softbox::new(Vec3::new(0.1, 0.42, -1.0), Vec2::new(0.75, 0.10), Vec3::new(3.6, 3.5, 3.4)),
             Softbox::new(Vec3::new(0.22, 1.0, 0.5), Vec2::new(0.07, 0.07), Vec3::new(26.0, 23.5, 20.0)),
         ];
-        let mut environment = Self { lights, rows: Vec::new(), columns: Vec::new() };
+        Self::new([Vec3::new(0.26, 0.25, 0.24), Vec3::new(0.07, 0.075, 0.085)], lights)
+    }
+
+    /// Lights under a sky of these radiances at the horizon and at the zenith.
+    pub(crate) fn new(sky: [Vec3; 2], lights: Vec<Softbox>) -> Self {
+        let mut environment = Self { sky, lights, rows: Vec::new(), columns: Vec::new() };
         environment.tabulate();
         environment
     }
@@ -68,7 +75,7 @@ impl Environment {
             return Vec3::ZERO;
         }
         let height = direction.y.sqrt();
-        let sky = Vec3::new(0.26, 0.25, 0.24).lerp(Vec3::new(0.07, 0.075, 0.085), height);
+        let sky = self.sky[0].lerp(self.sky[1], height);
         self.lights.iter().fold(sky, |sum, light| sum + light.radiance(direction))
     }
 

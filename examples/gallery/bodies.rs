@@ -1,0 +1,129 @@
+//! Figure 6: elastic bodies, whose microsurface is deformed with them.
+
+use core::f64::consts::PI;
+
+use microsurface::glam::{DVec2, DVec3, Mat2, Vec3};
+use microsurface::transform::tension::{self, Mean, interpolated};
+use microsurface::{Error, Gtr};
+
+use crate::camera::Camera;
+use crate::environment::Environment;
+use crate::mesh::{Mesh, longitude};
+use crate::rubber::Rubber;
+use crate::scene::{Cover, Object, Place, Scene, floor};
+use crate::sheet::{Effort, Sheet};
+
+pub(crate) const LOOK_FOR: &str = "\
+  Figure 6: elastic dielectric bodies at rest, drawn out, inflated, pressed flat and bent.
+  Rows 1 and 2: GTR, alpha = 0.25, gamma = 2.2; rows 3 and 4: alpha = 0.16, gamma = 1.4.
+  Rows 1 and 3: the isotropic material at rest on all of them. Rows 2 and 4: the same moved by the tension of the mesh.
+  Of each pair the first body is the same in both; the inflated one is glossier below, like a balloon; the highlight
+  is sharper along the direction a body was stretched in, broader along the one it was compressed in.";
+
+const SIZE: [u32; 2] = [960, 220];
+
+/// A bird, about 2 in length, that looks along x.
+fn bird(uv: DVec2) -> DVec3 {
+    let (sin, cos) = (PI * uv.y).sin_cos();
+    let direction = longitude(uv.x) * sin + DVec3::NEG_Y * cos;
+    let bump = |towards: DVec3, height: f64, sharpness: f64| {
+        height * (sharpness * (direction.dot(towards.normalize()) - 1.0)).exp()
+    };
+    let radius = 0.62
+        + bump(DVec3::new(0.75, 0.75, 0.0), 0.42, 7.0)
+        + bump(DVec3::new(1.0, 0.62, 0.0), 0.16, 160.0)
+        + bump(DVec3::new(-1.0, 0.25, 0.0), 0.55, 9.0);
+    direction * radius * DVec3::new(1.0, 0.9, 0.85)
+}
+
+/// A gourd, 1.6 in height.
+fn gourd(uv: DVec2) -> DVec3 {
+    let (sin, cos) = (PI * uv.y).sin_cos();
+    let waist = 1.0 + 0.22 * (2.6 * cos + 0.5).sin();
+    longitude(uv.x) * (0.5 * sin * waist) + DVec3::NEG_Y * (0.8 * cos)
+}
+
+fn rest(p: DVec3) -> DVec3 {
+    p
+}
+
+fn drawn_out(p: DVec3) -> DVec3 {
+    p * DVec3::new(0.8, 1.56, 0.8)
+}
+
+fn inflated(p: DVec3) -> DVec3 {
+    p * 1.45
+}
+
+fn pressed(p: DVec3) -> DVec3 {
+    p * DVec3::new(1.25, 0.5, 1.25)
+}
+
+/// Bent about the z axis so that a line along y becomes an arc of radius 1/K.
+fn bent(p: DVec3) -> DVec3 {
+    const K: f64 = 0.95;
+    let (sin, cos) = (K * p.y).sin_cos();
+    let radius = 1.0 / K + p.x;
+    DVec3::new(radius * cos - 1.0 / K, radius * sin, p.z)
+}
+
+type Deformation = fn(DVec3) -> DVec3;
+const POSES: [Deformation; 5] = [rest, drawn_out, inflated, pressed, bent];
+
+type Shape = fn(DVec2) -> DVec3;
+
+struct Row {
+    shape: Shape,
+    alpha: f32,
+    gamma: f32,
+    dye: Vec3,
+    tracked: bool,
+}
+
+/// The material at rest, everywhere.
+fn isotropic(row: &Row) -> Result<Cover, Error> {
+    let (surface, dye) = (Gtr::isotropic(row.alpha, row.gamma)?, row.dye);
+    Rubber::new(surface, dye)?;
+    Ok(Box::new(move |_| Box::new(Rubber::new(surface, dye).expect("made before"))))
+}
+
+/// The material that the deformation makes of it: moved by the mean tension of the vertices.
+fn tracked(row: &Row, rest: &Mesh, deformed: &Mesh) -> Result<Cover, Error> {
+    let mut means = vec![Mean::default(); rest.positions.len()];
+    tension::Mesh::<f32> {
+        rest: &rest.positions,
+        deformed: &deformed.positions,
+        uv: &rest.uv,
+        triangles: &rest.triangles,
+    }
+    .add_tension_of_vertices(&mut means)?;
+    let tensions: Vec<Mat2> = means.iter().map(Mean::matrix).collect();
+    let (surface, dye) = (Gtr::isotropic(row.alpha, row.gamma)?.transformed(Mat2::IDENTITY)?, row.dye);
+    Rubber::new(surface, dye)?;
+    Ok(Box::new(move |place: &Place| {
+        let tension = interpolated::<f32>(place.corners.map(|i| tensions[i]), place.barycentric);
+        // Where a mean is singular, the material at rest.
+        let surface = surface.transformed(tension).unwrap_or(surface);
+        Box::new(Rubber::new(surface, dye).expect("made before"))
+    }))
+}
+
+pub(crate) fn figure(effort: Effort) -> Result<Sheet, Error> {
+    let environment = Environment::studio();
+    let (red, blue) = (Vec3::new(0.28, 0.03, 0.025), Vec3::new(0.02, 0.07, 0.22));
+    let birds = |tracked| Row { shape: bird, alpha: 0.25, gamma: 2.2, dye: red, tracked };
+    let gourds = |tracked| Row { shape: gourd, alpha: 0.16, gamma: 1.4, dye: blue, tracked };
+    let mut sheet = Sheet::new(1);
+    for row in [birds(false), birds(true), gourds(false), gourds(true)] {
+        let mut objects = vec![floor(Vec3::splat(0.12))];
+        let at_rest = Mesh::of(row.shape, [160, 80]);
+        for (i, pose) in POSES.into_iter().enumerate() {
+            let mesh = Mesh::of(|uv| pose((row.shape)(uv)), [160, 80]);
+            let cover = if row.tracked { tracked(&row, &at_rest, &mesh)? } else { isotropic(&row)? };
+            objects.push(Object { mesh: mesh.standing_at(2.3 * (i as f32 - 2.0), 0.0), cover });
+        }
+        let camera = Camera::new(Vec3::Y * 0.85, 14.0, 0.35, 2.75);
+        sheet.render(&Scene::new(camera, &environment, objects), SIZE, effort);
+    }
+    Ok(sheet)
+}
