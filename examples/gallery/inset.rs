@@ -26,7 +26,7 @@ pub(crate) fn draw(image: &mut Image, map: impl Fn(Vec2) -> Vec2) {
     let bound = |(low, high): (Vec2, Vec2), p: &Vec2| (low.min(*p), high.max(*p));
     let (low, high) = segments.iter().flatten().fold((Vec2::INFINITY, Vec2::NEG_INFINITY), bound);
 
-    let (size, margin) = (image.height as f32 * 0.3, image.height as f32 * 0.03);
+    let (size, margin) = (image.height as f32 * 0.38, image.height as f32 * 0.03);
     let corner = Vec2::new(image.width as f32 - size, 0.0);
     let scale = (size - 2.0 * margin) / (high - low).max_element();
     let centre = corner + Vec2::splat(0.5 * size);
@@ -34,13 +34,12 @@ pub(crate) fn draw(image: &mut Image, map: impl Fn(Vec2) -> Vec2) {
     let placed = |p: Vec2| centre + (p - 0.5 * (low + high)) * Vec2::new(scale, -scale);
     let segments: Vec<[Vec2; 2]> = segments.into_iter().map(|ends| ends.map(placed)).collect();
 
-    let half_width = 0.001 * image.height as f32;
     for y in 0..size as usize {
         for x in corner.x as usize..image.width as usize {
             let pixel = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
             let distance = segments.iter().fold(f32::INFINITY, |d, s| d.min(distance(pixel, *s)));
-            let ink = (half_width + 0.7 - distance).clamp(0.0, 1.0);
-            image.pixels[y * image.width as usize + x] = Vec3::splat(0.015).lerp(Vec3::splat(1.5), ink);
+            let ink = (0.9 - distance).clamp(0.0, 0.7);
+            image.pixels[y * image.width as usize + x] = Vec3::splat(0.004).lerp(Vec3::splat(1.5), ink);
         }
     }
 }

@@ -25,7 +25,7 @@ const ALPHA: f32 = 0.0121;
 const GAMMA: f32 = 1.7;
 /// Reflectance at normal incidence.
 const SILVER: Vec3 = Vec3::new(0.971, 0.960, 0.914);
-const SIZE: [u32; 2] = [480, 320];
+const SIZE: [u32; 2] = [500, 320];
 
 /// (u, v) ↦ (u, v + 2u⁵).
 fn curved(uv: Vec2) -> Vec2 {
@@ -65,11 +65,11 @@ fn bent() -> Result<Cover, Error> {
 
 pub(crate) fn figure(effort: Effort) -> Result<Sheet, Error> {
     const ELEVATION: f32 = 0.75;
-    // A lamp where the plate's centre reflects it to the camera, under a dim sky.
-    let mirror = Vec3::new(0.0, ELEVATION.sin(), -ELEVATION.cos());
-    let lamp = Softbox::new(mirror, Vec2::splat(0.016), Vec3::new(300.0, 285.0, 260.0));
+    // A lamp that the plate reflects to the camera a little left of its centre, under a dim sky.
+    let mirror = Vec3::new(-0.45 / 8.0, ELEVATION.sin(), -ELEVATION.cos());
+    let lamp = Softbox::new(mirror, Vec2::splat(0.016), Vec3::new(26.0, 24.5, 22.0));
     let environment =
-        Environment::new([Vec3::new(0.10, 0.11, 0.13), Vec3::new(0.02, 0.025, 0.035)], vec![lamp]);
+        Environment::new([Vec3::new(0.012, 0.013, 0.016), Vec3::new(0.008, 0.009, 0.012)], vec![lamp]);
 
     let stretch = Mat2::from_diagonal(Vec2::new(5.0, 1.0));
     let shear = Mat2::from_cols(Vec2::new(1.0, 0.0), Vec2::new(2.0, 1.0));
@@ -84,7 +84,7 @@ pub(crate) fn figure(effort: Effort) -> Result<Sheet, Error> {
     for (cover, map) in panels {
         let mesh = Mesh::plane([Vec3::new(-1.0, 0.02, 1.0), Vec3::X * 2.0, Vec3::NEG_Z * 2.0]);
         let objects = vec![floor(Vec3::splat(0.03)), Object { mesh, cover }];
-        let camera = Camera::new(Vec3::ZERO, 8.0, ELEVATION, 1.75);
+        let camera = Camera::new(Vec3::X * 0.2, 8.0, ELEVATION, 1.85);
         sheet.render(&Scene::new(camera, &environment, objects), SIZE, effort);
         if let Some(image) = sheet.images.last_mut() {
             inset::draw(image, map);

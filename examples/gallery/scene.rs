@@ -32,10 +32,8 @@ pub(crate) struct Object {
 pub(crate) struct Scene<'a> {
     pub(crate) camera: Camera,
     pub(crate) environment: &'a Environment,
-    shapes: Bvh,
-    objects: Vec<Object>,
-    /// The object and the triangle of it that a shape is.
-    owners: Vec<[usize; 2]>,
+    /// Each with its triangles, whose materials are their own numbers.
+    objects: Vec<(Object, Bvh)>,
 }
 
 /// Where a path is: the local frame, the material, and where to leave from.
@@ -56,43 +54,44 @@ impl Vertex {
 
 impl<'a> Scene<'a> {
     pub(crate) fn new(camera: Camera, environment: &'a Environment, objects: Vec<Object>) -> Self {
-        let (mut shapes, mut owners) = (Vec::new(), Vec::new());
-        for (object, Object { mesh, .. }) in objects.iter().enumerate() {
-            for (triangle, corners) in mesh.triangles.iter().enumerate() {
-                shapes.push(Shape::Triangle {
-                    corners: corners.map(|i| mesh.positions[i]),
-                    normals: corners.map(|i| mesh.normals[i]),
-                    material: owners.len(),
-                });
-                owners.push([object, triangle]);
-            }
-        }
-        Self { camera, environment, shapes: Bvh::new(shapes), objects, owners }
+        let with_triangles = |object: Object| {
+            let mesh = &object.mesh;
+            let triangle = |(material, corners): (usize, &[usize; 3])| Shape::Triangle {
+                corners: corners.map(|i| mesh.positions[i]),
+                normals: corners.map(|i| mesh.normals[i]),
+                material,
+            };
+            let shapes = mesh.triangles.iter().enumerate().map(triangle).collect();
+            (object, Bvh::new(shapes))
+        };
+        Self { camera, environment, objects: objects.into_iter().map(with_triangles).collect() }
     }
 
     /// What the ray meets first.
     pub(crate) fn hit(&self, ray: &Ray) -> Option<Vertex> {
-        self.shapes.hit(ray, NEAREST).map(|hit| self.vertex(&hit))
+        self.objects
+            .iter()
+            .filter_map(|(object, shapes)| Some((object, shapes.hit(ray, NEAREST)?)))
+            .min_by(|(_, a), (_, b)| a.distance.total_cmp(&b.distance))
+            .map(|(object, hit)| vertex(object, &hit))
     }
 
     /// Does the ray not reach the environment?
     pub(crate) fn occludes(&self, ray: &Ray) -> bool {
-        self.shapes.occludes(ray, NEAREST)
+        self.objects.iter().any(|(_, shapes)| shapes.occludes(ray, NEAREST))
     }
+}
 
-    fn vertex(&self, hit: &Hit) -> Vertex {
-        let [object, triangle] = self.owners[hit.material];
-        let Object { mesh, cover } = &self.objects[object];
-        let corners = mesh.triangles[triangle];
-        let barycentric = barycentric(corners.map(|i| mesh.positions[i]), hit.position);
-        let tangent = (0..3).map(|i| mesh.tangents[corners[i]] * barycentric[i]).sum();
-        let uv = (0..3).map(|i| mesh.uv[corners[i]] * barycentric[i]).sum();
-        Vertex {
-            frame: Frame::from_normal_and_tangent(hit.shading_normal, tangent),
-            material: cover(&Place { corners, barycentric, uv }),
-            position: hit.position,
-            normal: hit.normal,
-        }
+fn vertex(Object { mesh, cover }: &Object, hit: &Hit) -> Vertex {
+    let corners = mesh.triangles[hit.material];
+    let barycentric = barycentric(corners.map(|i| mesh.positions[i]), hit.position);
+    let tangent = (0..3).map(|i| mesh.tangents[corners[i]] * barycentric[i]).sum();
+    let uv = (0..3).map(|i| mesh.uv[corners[i]] * barycentric[i]).sum();
+    Vertex {
+        frame: Frame::from_normal_and_tangent(hit.shading_normal, tangent),
+        material: cover(&Place { corners, barycentric, uv }),
+        position: hit.position,
+        normal: hit.normal,
     }
 }
 

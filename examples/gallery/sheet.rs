@@ -17,8 +17,8 @@ pub(crate) struct Effort {
 }
 
 impl Effort {
-    pub(crate) const FULL: Self = Self { scale: 1.0, samples: 32 };
-    pub(crate) const QUICK: Self = Self { scale: 0.25, samples: 4 };
+    pub(crate) const FULL: Self = Self { scale: 1.0, samples: 16 };
+    pub(crate) const QUICK: Self = Self { scale: 0.2, samples: 4 };
 }
 
 /// Pictures of one size, row by row.

@@ -80,7 +80,8 @@ impl Environment {
     }
 
     fn tabulate(&mut self) {
-        const FINE: usize = 2;
+        // Finer than the small lights' edges, or the edges would be found by chance.
+        const FINE: usize = 4;
         let brightness = |row, column| {
             let fine = (0..FINE * FINE).map(|i| {
                 let offset = Vec2::new((i % FINE) as f32 + 0.5, (i / FINE) as f32 + 0.5) / FINE as f32;
