@@ -20,7 +20,7 @@ pub(crate) const LOOK_FOR: &str = "\
   Of each pair the first body is the same in both; the inflated one is glossier below, like a balloon; the highlight
   is sharper along the direction a body was stretched in, broader along the one it was compressed in.";
 
-const SIZE: [u32; 2] = [960, 230];
+const SIZE: [u32; 2] = [880, 210];
 
 /// A bird, about 1.6 in length, that looks along x.
 fn bird(uv: DVec2) -> DVec3 {
@@ -109,17 +109,14 @@ fn tracked(row: &Row, rest: &Mesh, deformed: &Mesh) -> Result<Cover, Error> {
 }
 
 pub(crate) fn figure(effort: Effort) -> Result<Sheet, Error> {
-    let lights = vec![
-        Softbox::new(Vec3::new(-0.45, 0.8, 0.9), Vec2::splat(0.13), Vec3::new(62.0, 59.0, 54.0)),
-        Softbox::new(Vec3::new(0.95, 0.4, 0.35), Vec2::new(0.07, 0.4), Vec3::new(9.0, 9.5, 10.0)),
-    ];
-    let environment = Environment::new([Vec3::splat(0.07), Vec3::splat(0.03)], lights);
+    let lamp = Softbox::new(Vec3::new(-0.45, 0.8, 0.9), Vec2::splat(0.13), Vec3::new(62.0, 59.0, 54.0));
+    let environment = Environment::new([Vec3::splat(0.07), Vec3::splat(0.03)], vec![lamp]);
     let (red, blue) = (Vec3::new(0.13, 0.008, 0.006), Vec3::new(0.006, 0.03, 0.10));
     let birds = |tracked| Row { shape: bird, alpha: 0.25, gamma: 2.2, dye: red, tracked };
     let gourds = |tracked| Row { shape: gourd, alpha: 0.16, gamma: 1.4, dye: blue, tracked };
     let mut sheet = Sheet::new(1);
     for row in [birds(false), birds(true), gourds(false), gourds(true)] {
-        let mut objects = vec![floor(Vec3::splat(0.12))];
+        let mut objects = vec![floor(Vec3::splat(0.08))];
         let at_rest = Mesh::of(row.shape, [112, 56]);
         for (i, pose) in POSES.into_iter().enumerate() {
             let mesh = Mesh::of(|uv| pose((row.shape)(uv)), [112, 56]);

@@ -19,6 +19,11 @@ pub(crate) struct Effort {
 impl Effort {
     pub(crate) const FULL: Self = Self { scale: 1.0, samples: 16 };
     pub(crate) const QUICK: Self = Self { scale: 0.2, samples: 4 };
+
+    /// This many times the samples.
+    pub(crate) const fn times(self, factor: u32) -> Self {
+        Self { samples: self.samples * factor, ..self }
+    }
 }
 
 /// Pictures of one size, row by row.
