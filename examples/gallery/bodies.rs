@@ -2,6 +2,7 @@
 
 use core::f64::consts::PI;
 
+use microsurface::fresnel::Dielectric;
 use microsurface::glam::{DVec2, DVec3, Mat2, Vec2, Vec3};
 use microsurface::transform::tension::{self, Mean, interpolated};
 use microsurface::{Error, Gtr};
@@ -83,8 +84,8 @@ struct Row {
 /// The material at rest, everywhere.
 fn isotropic(row: &Row) -> Result<Cover, Error> {
     let (surface, dye) = (Gtr::isotropic(row.alpha, row.gamma)?, row.dye);
-    Rubber::new(surface, dye)?;
-    Ok(Box::new(move |_| Box::new(Rubber::new(surface, dye).expect("made before"))))
+    let fresnel = Dielectric::new(Vec3::splat(1.5))?;
+    Ok(Box::new(move |_| Box::new(Rubber::new(surface, fresnel, dye))))
 }
 
 /// The material that the deformation makes of it: moved by the mean tension of the vertices.
@@ -99,12 +100,12 @@ fn tracked(row: &Row, rest: &Mesh, deformed: &Mesh) -> Result<Cover, Error> {
     .add_tension_of_vertices(&mut means)?;
     let tensions: Vec<Mat2> = means.iter().map(Mean::matrix).collect();
     let (surface, dye) = (Gtr::isotropic(row.alpha, row.gamma)?.transformed(Mat2::IDENTITY)?, row.dye);
-    Rubber::new(surface, dye)?;
+    let fresnel = Dielectric::new(Vec3::splat(1.5))?;
     Ok(Box::new(move |place: &Place| {
         let tension = interpolated::<f32>(place.corners.map(|i| tensions[i]), place.barycentric);
         // Where a mean is singular, the material at rest.
         let surface = surface.transformed(tension).unwrap_or(surface);
-        Box::new(Rubber::new(surface, dye).expect("made before"))
+        Box::new(Rubber::new(surface, fresnel, dye))
     }))
 }
 

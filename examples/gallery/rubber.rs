@@ -1,9 +1,9 @@
 //! A dyed dielectric.
 
+use microsurface::SampleVndf;
 use microsurface::bsdf::{RoughConductor, Sample};
 use microsurface::fresnel::{Dielectric, Fresnel};
 use microsurface::glam::{Vec2, Vec3};
-use microsurface::{Error, SampleVndf};
 
 use crate::material::{Diffuse, Material};
 
@@ -14,9 +14,8 @@ pub(crate) struct Rubber<N> {
 }
 
 impl<N> Rubber<N> {
-    pub(crate) fn new(surface: N, dye: Vec3) -> Result<Self, Error> {
-        let boundary = RoughConductor::new(surface, Dielectric::new(Vec3::splat(1.5))?);
-        Ok(Self { boundary, base: Diffuse { albedo: dye } })
+    pub(crate) const fn new(surface: N, fresnel: Dielectric<Vec3>, dye: Vec3) -> Self {
+        Self { boundary: RoughConductor::new(surface, fresnel), base: Diffuse { albedo: dye } }
     }
 }
 
