@@ -38,7 +38,8 @@
 //! | two roughnesses along the axes | `anisotropic(alpha_x, alpha_y)` |
 //! | roughness along any direction | `from_roughness_matrix` with a [`RoughnessMatrix`] |
 //! | a surface that is stretched, sheared, deformed | [`Microsurface::transformed`], [`Microsurface::stretched`] |
-//! | a distribution of your own | implement [`Ndf`] |
+//! | a deforming mesh, a map of the texture | [`transform::tension`], [`transform::jacobian_of_uv_map`] |
+//! | a distribution of your own | implement [`Ndf`]; moved by [`transform::Transformed`] |
 //! | α from an artist's roughness | [`roughness`] |
 //! | reflection | [`bsdf::RoughConductor`] with a [`fresnel`] term |
 //! | GTR sampled as in its papers | [`bsdf::UniformMixture`] |

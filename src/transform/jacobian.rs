@@ -29,6 +29,9 @@ pub fn jacobian_of_normals<T: Real>(matrix: T::Mat2, m: T::Vec3) -> T::Mat2 {
 
 /// The Jacobian of a map of texture coordinates at a point, by central differences: the M that it moves a microsurface by.
 ///
+/// `uv` are the coordinates at rest: on a surface that was moved already, those the map takes to the point. The scalar
+/// has to be named, as below.
+///
 /// `step` is half the distance between the points; the error is `step`²/6 times the third derivatives, plus the
 /// rounding of the map over `step`: ε^{1/3} times the size of the coordinates balances them.
 ///

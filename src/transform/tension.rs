@@ -188,8 +188,10 @@ impl<T: Real> Mesh<'_, T> {
 
     /// The mean tension at every vertex, weighted by the areas of its triangles at rest, added to `means`.
     ///
-    /// The texture direction, to which the matrices of neighbouring triangles refer, has to be continuous across their edges: at
-    /// a seam of the texture vertices are to be doubled, as they are for the coordinates themselves.
+    /// The texture direction u, to which the matrices of neighbouring triangles refer, has to be continuous across their
+    /// edges: at a seam or a pole of the texture vertices are to be doubled, as they are for the coordinates themselves. The
+    /// frame that goes with interpolated means has the interpolated normal as z and the interpolated ∂p/∂u as x:
+    /// [`Frame::from_normal_and_tangent`].
     ///
     /// # Returns
     /// The number of triangles left out because they have no tension: vertices that have no other stay at rest.

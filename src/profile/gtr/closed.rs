@@ -100,6 +100,9 @@ impl<T: Real> Gtr<T, ()> {
     ///
     /// `Gtr::closed::<1>(alpha)` is the Berry distribution. A larger `G` does not compile.
     ///
+    /// It keeps no components: visible normals of γ = 1 make them for each sample, in 0.5 µs. Who draws many and does not
+    /// mind 0.8 kB takes `Gtr::isotropic(alpha, 1.0)`.
+    ///
     /// # Errors
     /// [`Error::Alpha`] or [`Error::AlphaAboveOne`] unless 0 < α ≤ 1.
     ///
