@@ -5,7 +5,7 @@
 //! deformation made of the microsurface: smoother where the object is stretched, rougher where it is compressed.
 //!
 //! The shading frame that goes with T has the normal (p₁ − p₀) × (p₂ − p₀) of the deformed triangle as z and the
-//! direction of ∂p/∂u as x; [`frame`] gives it.
+//! direction of ∂p/∂u as x; [`Triangle::frame`] gives it.
 //!
 //! [`Microsurface::transformed`]: crate::Microsurface::transformed
 //!
@@ -83,7 +83,7 @@ impl<T: Real> Triangle<T> {
     /// let deformed = [Vec3::ZERO, Vec3::Z * 2.0, Vec3::X].map(|p| p + Vec3::new(1.0, 2.0, 3.0));
     /// let tension = Triangle::<f32> { rest, deformed, uv }.tension()?;
     /// assert!((tension.x_axis - Vec2::new(2.0, 0.0)).length() < 1e-6);
-    /// let stretched = Gtr::isotropic(0.25, 2.2)?.transformed(tension)?;
+    /// let stretched = Gtr::isotropic(0.25_f32, 2.2)?.transformed(tension)?;
     /// # let _ = stretched;
     /// # Ok::<(), microsurface::Error>(())
     /// ```
