@@ -2,11 +2,12 @@
 
 use core::ops::AddAssign;
 
-use microsurface::glam::Vec3;
+use microsurface::glam::{Vec2, Vec3};
 
 use crate::camera::Ray;
+use crate::material::Material;
 use crate::sampler::Sampler;
-use crate::scene::Scene;
+use crate::scene::{Scene, Vertex};
 
 /// Reflections along a path, at most.
 const BOUNCES: usize = 4;
@@ -78,17 +79,8 @@ pub(crate) fn radiance(
         let wo = vertex.frame.to_local(-ray.direction);
         let (light_u, material_u) = (sampler.next(), sampler.next());
 
-        // Towards the environment; f is without the cosine.
-        let (direction, radiance, light_density) = scene.environment.sample(light_u);
-        let wi = vertex.frame.to_local(direction);
-        let f = vertex.material.eval(wi, wo);
-        faults.check(&f.to_array());
-        if f.max_element() > 0.0 && light_density > 0.0 && !scene.occludes(&vertex.leave(direction)) {
-            let p = vertex.material.pdf(wi, wo);
-            faults.check(&[p]);
-            let cos_over_p = wi.z / light_density * power_heuristic(light_density, p);
-            sum += limited(throughput * f * radiance * cos_over_p, limit);
-        }
+        let light = by_environment(scene, &vertex, vertex.material, wo, light_u, faults);
+        sum += limited(throughput * light, limit);
 
         // Along a direction of the material's own choice; the weight is f cos/pdf.
         let Some(sample) = vertex.material.sample(wo, material_u) else { break };
@@ -108,6 +100,29 @@ pub(crate) fn radiance(
     sum
 }
 
+/// What the vertex reflects towards `wo` of the light from a direction that the environment samples, weighed against the
+/// directions that the material samples.
+pub(crate) fn by_environment(
+    scene: &Scene,
+    vertex: &Vertex,
+    material: &dyn Material,
+    wo: Vec3,
+    u: Vec2,
+    faults: &mut Faults,
+) -> Vec3 {
+    let (direction, radiance, density) = scene.environment.sample(u);
+    let wi = vertex.frame.to_local(direction);
+    // Without the cosine.
+    let f = material.eval(wi, wo);
+    faults.check(&f.to_array());
+    if f.max_element() <= 0.0 || density <= 0.0 || scene.occludes(&vertex.leave(direction)) {
+        return Vec3::ZERO;
+    }
+    let p = material.pdf(wi, wo);
+    faults.check(&[p]);
+    f * radiance * (wi.z / density * power_heuristic(density, p))
+}
+
 /// The contribution of a path, made smaller where its largest channel exceeds the limit.
 ///
 /// What a rough surface receives by way of a smooth one, a caustic, arrives along few paths of great weight: bright
@@ -122,7 +137,7 @@ fn limited(contribution: Vec3, limit: f32) -> Vec3 {
 /// The weight of a direction drawn with density `p` that another sampler would have drawn with density `q`.
 ///
 /// Veach and Guibas 1995, "Optimally combining sampling techniques for Monte Carlo rendering", §3.2.
-fn power_heuristic(p: f32, q: f32) -> f32 {
+pub(crate) fn power_heuristic(p: f32, q: f32) -> f32 {
     let ratio = q / p;
     1.0 / (1.0 + ratio * ratio)
 }

@@ -1,7 +1,8 @@
 //! A tour of the crate: a small path tracer that uses its public interface only.
 //!
 //! `cargo run --release --example tour` renders spheres of many microsurfaces into `target/tour/` and prints what
-//! each reflects, checked by its own sampler against a quadrature. `-- --help` lists the options.
+//! each reflects, checked by its own sampler against a quadrature. `-- --help` lists the options; one of them,
+//! `--compare-sampling`, measures the noise of GTR by three samplings instead.
 //!
 //! Where to look: `material.rs` is all that a renderer needs from a BSDF and `picture.rs` builds the materials;
 //! `integrator.rs` is where they are evaluated and sampled.
@@ -15,6 +16,7 @@
 mod args;
 mod bvh;
 mod camera;
+mod comparison;
 mod environment;
 mod furnace;
 mod image;
@@ -37,14 +39,14 @@ use std::time::Instant;
 use indicatif::{ProgressBar, ProgressStyle};
 use microsurface::glam::Vec3;
 
-use crate::args::{Command, Options};
+use crate::args::{Command, Options, Subject};
 use crate::camera::Camera;
+use crate::comparison::Comparison;
 use crate::environment::Environment;
 use crate::material::Material;
 use crate::picture::Picture;
 use crate::report::Verdict;
 use crate::scene::Scene;
-use crate::shape::Shape;
 
 const OUTPUT: &str = "target/tour";
 
@@ -60,7 +62,11 @@ fn main() -> ExitCode {
             return ExitCode::from(2);
         }
     };
-    match tour(&options) {
+    let checked = match options.subject {
+        Subject::Samplings => compare(&options),
+        Subject::Spheres | Subject::Mesh(_) => tour(&options),
+    };
+    match checked {
         Ok(failures) if failures.is_empty() => ExitCode::SUCCESS,
         Ok(failures) => {
             eprintln!("error: {}", failures.join("\nerror: "));
@@ -76,14 +82,14 @@ fn main() -> ExitCode {
 /// Renders the pictures and prints the table. Returns what was wrong.
 fn tour(options: &Options) -> Result<Vec<String>, String> {
     let describe = |error: microsurface::Error| error.to_string();
-    let pictures = match options.mesh {
-        Some(_) => vec![picture::mesh().map_err(describe)?],
-        None => [picture::tails(), picture::brushed(), picture::metals()]
+    let pictures = match options.subject {
+        Subject::Mesh(_) => vec![picture::mesh().map_err(describe)?],
+        _ => [picture::tails(), picture::brushed(), picture::metals()]
             .into_iter()
             .collect::<Result<_, _>>()
             .map_err(describe)?,
     };
-    std::fs::create_dir_all(OUTPUT).map_err(|error| format!("cannot create {OUTPUT}: {error}"))?;
+    create_output()?;
 
     let mut verdict = Verdict::default();
     let environment = Environment::studio();
@@ -96,7 +102,35 @@ fn tour(options: &Options) -> Result<Vec<String>, String> {
         report::print_table(picture, options.furnace_samples, &mut verdict);
     }
     report::print_reference(&mut verdict).map_err(describe)?;
+    Ok(concluded(verdict))
+}
 
+/// Compares samplings of GTR. Returns what was wrong.
+fn compare(options: &Options) -> Result<Vec<String>, String> {
+    create_output()?;
+    let size = size(options);
+    let mut verdict = Verdict::default();
+    let progress = progress_bar("samplings", size[1]);
+    let start = Instant::now();
+    let comparison = Comparison::new(&Environment::studio(), size, options.samples, &progress, &mut verdict)
+        .map_err(|error| error.to_string())?;
+    progress.finish_and_clear();
+    for (name, image) in comparison.images() {
+        image.write_png(&Path::new(OUTPUT).join(name).with_extension("png"))?;
+    }
+    println!(
+        "{OUTPUT}/sampling-*.png: {}x{}, {} samples, {:.2} s",
+        size[0],
+        size[1],
+        options.samples,
+        start.elapsed().as_secs_f64()
+    );
+    comparison.print(&mut verdict);
+    Ok(concluded(verdict))
+}
+
+/// Prints what the checks found. Returns what was wrong.
+fn concluded(mut verdict: Verdict) -> Vec<String> {
     let faults = verdict.faults;
     println!(
         "Of {} values checked {} are NaN, {} infinite, {} negative",
@@ -105,7 +139,16 @@ fn tour(options: &Options) -> Result<Vec<String>, String> {
     if !faults.none() {
         verdict.failures.push("a material returned NaN, infinite or negative values".to_owned());
     }
-    Ok(verdict.failures)
+    verdict.failures
+}
+
+fn create_output() -> Result<(), String> {
+    std::fs::create_dir_all(OUTPUT).map_err(|error| format!("cannot create {OUTPUT}: {error}"))
+}
+
+/// Width and height of the pictures.
+fn size(options: &Options) -> [u32; 2] {
+    [options.width, options.width * 9 / 16]
 }
 
 fn render_picture(
@@ -115,13 +158,13 @@ fn render_picture(
     verdict: &mut Verdict,
 ) -> Result<(), String> {
     let start = Instant::now();
-    let size = [options.width, options.width * 9 / 16];
-    let (shapes, camera) = match &options.mesh {
-        Some(path) => {
+    let size = size(options);
+    let (shapes, camera) = match &options.subject {
+        Subject::Mesh(path) => {
             let (shapes, height) = mesh::load(path, 0)?;
             (shapes, Camera::new(Vec3::Y * (0.5 * height), 12.0, 0.42, 2.8))
         }
-        None => spheres(picture),
+        _ => scene::spheres([picture.rows.len(), picture.rows[0].len()]),
     };
     let materials: Vec<&dyn Material> = picture.rows.iter().flatten().map(|entry| &*entry.material).collect();
     let scene = Scene::new(camera, environment, shapes, materials);
@@ -156,23 +199,4 @@ fn progress_bar(name: &str, rows: u32) -> ProgressBar {
     ProgressBar::new(u64::from(rows))
         .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
         .with_message(name.to_owned())
-}
-
-/// The spheres of a picture in rows on the floor, and a camera that sees them all.
-fn spheres(picture: &Picture) -> (Vec<Shape>, Camera) {
-    const RADIUS: f32 = 0.45;
-    const ROW_DISTANCE: f32 = 1.45;
-    const ELEVATION: f32 = 0.72;
-    let (rows, columns) = (picture.rows.len(), picture.rows[0].len());
-    let centred = |i: usize, count: usize| i as f32 - 0.5 * (count as f32 - 1.0);
-    let places = (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column)));
-    let shapes = places.enumerate().map(|(material, (row, column))| {
-        let centre = Vec3::new(centred(column, columns), RADIUS, ROW_DISTANCE * centred(row, rows));
-        Shape::Sphere { centre, radius: RADIUS, material }
-    });
-    // Room for the columns across and for the rows, seen from above, down the picture.
-    let across = (columns as f32 + 0.5) * 9.0 / 16.0;
-    let down = (rows as f32 - 1.0) * ROW_DISTANCE * ELEVATION.sin() + 2.0 * RADIUS + 0.5;
-    let camera = Camera::new(Vec3::Y * (0.8 * RADIUS), 30.0, ELEVATION, across.max(down));
-    (shapes.collect(), camera)
 }

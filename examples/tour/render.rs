@@ -13,10 +13,7 @@ use crate::scene::Scene;
 
 /// What the paths through one row of pixels give to the row above, to their own and to the row below: sums of
 /// weighted radiance, and of weights.
-struct Row {
-    y: usize,
-    sums: [Vec<Vec4>; 3],
-}
+type Row = [Vec<Vec4>; 3];
 
 /// The picture, and what was wrong with its numbers. It does not depend on the number of threads.
 pub(crate) fn render(
@@ -25,6 +22,21 @@ pub(crate) fn render(
     samples: u32,
     progress: &ProgressBar,
 ) -> (Image, Faults) {
+    let (rows, mut faults) =
+        each_row(height, progress, |y, faults| row(scene, y, [width, height], samples, faults));
+    let pixels = gathered(rows, [width as usize, height as usize]);
+    for pixel in &pixels {
+        faults.check(&pixel.to_array());
+    }
+    (Image { width, height, pixels }, faults)
+}
+
+/// What `row` makes of each row of a picture, from the top, on all cores; and what was wrong with its numbers.
+pub(crate) fn each_row<T: Send>(
+    height: u32,
+    progress: &ProgressBar,
+    row: impl Fn(u32, &mut Faults) -> T + Sync,
+) -> (Vec<T>, Faults) {
     let threads = thread::available_parallelism().map_or(1, core::num::NonZero::get);
     let next_row = AtomicU32::new(0);
     let work = || {
@@ -35,7 +47,7 @@ pub(crate) fn render(
             if y >= height {
                 return (rows, faults);
             }
-            rows.push(row(scene, y, [width, height], samples, &mut faults));
+            rows.push((y, row(y, &mut faults)));
             progress.inc(1);
         }
     };
@@ -49,11 +61,8 @@ pub(crate) fn render(
             rows.extend(worker_rows);
         }
     });
-    let pixels = gathered(rows, [width as usize, height as usize]);
-    for pixel in &pixels {
-        faults.check(&pixel.to_array());
-    }
-    (Image { width, height, pixels }, faults)
+    rows.sort_unstable_by_key(|&(y, _)| y);
+    (rows.into_iter().map(|(_, row)| row).collect(), faults)
 }
 
 /// Follows the paths through a row of pixels.
@@ -78,7 +87,7 @@ fn row(scene: &Scene, y: u32, [width, height]: [u32; 2], samples: u32, faults: &
             }
         }
     }
-    Row { y: y as usize, sums }
+    sums
 }
 
 /// The weights of a place t ∈ [0, 1) inside a pixel for the pixel before, its own and the next: tents two pixels
@@ -88,11 +97,10 @@ fn tents(t: f32) -> [f32; 3] {
     [(-from_centre).max(0.0), 1.0 - from_centre.abs(), from_centre.max(0.0)]
 }
 
-/// The weighted means, summed in the order of the rows whichever thread made them.
-fn gathered(mut rows: Vec<Row>, [width, height]: [usize; 2]) -> Vec<Vec3> {
-    rows.sort_unstable_by_key(|row| row.y);
+/// The weighted means.
+fn gathered(rows: Vec<Row>, [width, height]: [usize; 2]) -> Vec<Vec3> {
     let mut sums = vec![Vec4::ZERO; width * height];
-    for Row { y, sums: given } in rows {
+    for (y, given) in rows.into_iter().enumerate() {
         for (i, line) in given.into_iter().enumerate() {
             let Some(to) = (y + i).checked_sub(1).filter(|&to| to < height) else { continue };
             for (sum, value) in sums[to * width..].iter_mut().zip(line) {

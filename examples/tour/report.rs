@@ -13,7 +13,7 @@ use crate::picture::{Entry, Picture};
 const COSINES: [f32; 4] = [0.2, 0.5, 0.8, 1.0];
 
 /// Above this many standard errors between sampler and quadrature, one of them is wrong.
-const LARGEST_DEVIATION: f64 = 6.0;
+pub(crate) const LARGEST_DEVIATION: f64 = 6.0;
 
 /// What the checks found.
 #[derive(Default)]
@@ -77,7 +77,7 @@ fn print_numbers(entry: &Entry, samples: u32, seed: u64, verdict: &mut Verdict) 
 }
 
 /// The larger of two numbers that are not negative; NaN where either is.
-fn largest(a: f64, b: f64) -> f64 {
+pub(crate) fn largest(a: f64, b: f64) -> f64 {
     if a.is_nan() || a > b { a } else { b }
 }
 

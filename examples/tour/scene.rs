@@ -24,6 +24,8 @@ pub(crate) struct Scene<'a> {
 pub(crate) struct Vertex<'a> {
     pub(crate) frame: Frame<f32>,
     pub(crate) material: &'a dyn Material,
+    /// Which of the scene's materials; the floor's is none.
+    pub(crate) index: Option<usize>,
     position: Vec3,
     normal: Vec3,
 }
@@ -93,6 +95,7 @@ impl<'a> Scene<'a> {
         Vertex {
             frame: Frame::from_normal_and_tangent(hit.shading_normal, Vec3::Y.cross(hit.shading_normal)),
             material: self.materials[hit.material],
+            index: Some(hit.material),
             position: hit.position,
             normal: hit.normal,
         }
@@ -103,8 +106,27 @@ impl<'a> Scene<'a> {
         Vertex {
             frame: Frame::from_normal_and_tangent(Vec3::Y, Vec3::X),
             material: self.floor.material(position),
+            index: None,
             position,
             normal: Vec3::Y,
         }
     }
+}
+
+/// Spheres in rows on the floor, the material of each its number from the back left, and a camera that sees them all.
+pub(crate) fn spheres([rows, columns]: [usize; 2]) -> (Vec<Shape>, Camera) {
+    const RADIUS: f32 = 0.45;
+    const ROW_DISTANCE: f32 = 1.45;
+    const ELEVATION: f32 = 0.72;
+    let centred = |i: usize, count: usize| i as f32 - 0.5 * (count as f32 - 1.0);
+    let places = (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column)));
+    let shapes = places.enumerate().map(|(material, (row, column))| {
+        let centre = Vec3::new(centred(column, columns), RADIUS, ROW_DISTANCE * centred(row, rows));
+        Shape::Sphere { centre, radius: RADIUS, material }
+    });
+    // Room for the columns across and for the rows, seen from above, down the picture.
+    let across = (columns as f32 + 0.5) * 9.0 / 16.0;
+    let down = (rows as f32 - 1.0) * ROW_DISTANCE * ELEVATION.sin() + 2.0 * RADIUS + 0.5;
+    let camera = Camera::new(Vec3::Y * (0.8 * RADIUS), 30.0, ELEVATION, across.max(down));
+    (shapes.collect(), camera)
 }
