@@ -39,12 +39,16 @@ pub(crate) struct Scene<'a> {
 /// Where a path is: the local frame, the material, and where to leave from.
 pub(crate) struct Vertex {
     pub(crate) frame: Frame<f32>,
-    pub(crate) material: Box<dyn Material>,
+    material: Box<dyn Material>,
     position: Vec3,
     normal: Vec3,
 }
 
 impl Vertex {
+    pub(crate) fn material(&self) -> &dyn Material {
+        &*self.material
+    }
+
     /// The ray from here, started a little off the surface on the side it goes to.
     pub(crate) fn leave(&self, direction: Vec3) -> Ray {
         let side = NEAREST.copysign(self.normal.dot(direction));

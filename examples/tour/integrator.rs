@@ -79,11 +79,11 @@ pub(crate) fn radiance(
         let wo = vertex.frame.to_local(-ray.direction);
         let (light_u, material_u) = (sampler.next(), sampler.next());
 
-        let light = by_environment(scene, &vertex, vertex.material, wo, light_u, faults);
+        let light = by_environment(scene, &vertex, vertex.material(), wo, light_u, faults);
         sum += limited(throughput * light, limit);
 
         // Along a direction of the material's own choice; the weight is f cos/pdf.
-        let Some(sample) = vertex.material.sample(wo, material_u) else { break };
+        let Some(sample) = vertex.material().sample(wo, material_u) else { break };
         faults.check(&sample.weight.to_array());
         faults.check(&[sample.pdf]);
         throughput *= sample.weight;

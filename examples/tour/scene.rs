@@ -31,6 +31,10 @@ pub(crate) struct Vertex<'a> {
 }
 
 impl Vertex<'_> {
+    pub(crate) fn material(&self) -> &dyn Material {
+        self.material
+    }
+
     /// The ray from here, started a little off the surface on the side it goes to.
     pub(crate) fn leave(&self, direction: Vec3) -> Ray {
         let side = NEAREST.copysign(self.normal.dot(direction));
