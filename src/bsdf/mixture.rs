@@ -10,7 +10,7 @@ use crate::vector::normalized;
 
 /// With probability p a direction uniform on the hemisphere, otherwise one reflected by a normal of `S`.
 ///
-/// The papers' sampling of GTR, whose visible normals cannot be drawn: the density of directions is
+/// The papers' sampling of GTR, whose visible normals they could not draw: the density of directions is
 /// p/(2π) + (1 − p) D(wm) wm.z/(4 wo·wm) over [`AllNormals`](crate::bsdf::AllNormals), which is the balance heuristic.
 /// One of the two random numbers decides and is used again. The weight is at most 2π f wi.z/p: where all normals alone
 /// have weights without bound, at grazing angles, it is bounded.
