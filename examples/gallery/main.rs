@@ -2,7 +2,7 @@
 //! crate and the tour's path tracer.
 //!
 //! `cargo run --release --example gallery` writes them to `target/gallery/` in less than a minute and prints what to
-//! look for; `-- --quick` makes small ones of few samples.
+//! look for, and a plot of what sets a transform apart from another width; `-- --quick` makes small ones of few samples.
 //!
 //! Where to look: `plate.rs`, `bodies.rs` and `vases.rs` are a figure each, and their covers are all that a renderer
 //! has to do at a hit: `surface.transformed(m)`.
@@ -13,6 +13,7 @@
     reason = "pixel and cell indices are small, and colours are within 0 … 255"
 )]
 
+mod anisotropy;
 mod bodies;
 mod inset;
 mod mesh;
@@ -116,5 +117,9 @@ fn gallery(effort: Effort) -> Result<(), String> {
             ));
         }
     }
+    let path = Path::new(OUTPUT).join("anisotropy.svg");
+    let plot = anisotropy::plot().map_err(|error| error.to_string())?;
+    std::fs::write(&path, plot).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+    println!("{}:\n{}", path.display(), anisotropy::LOOK_FOR);
     Ok(())
 }
