@@ -118,9 +118,12 @@ fn shares<T: Real, const M: usize>(n: usize, t: &[T; M]) -> [[T; M]; LARGEST_DEG
 /// aᵢ Vᵢ for i = 1 … n, each for many t; 0 above.
 #[inline(always)]
 pub(super) fn series<T: Real, const M: usize>(n: usize, t: &[T; M]) -> [[T; M]; LARGEST_DEGREE] {
+    let mut rows = [[T::ZERO; M]; LARGEST_DEGREE];
+    if n == 0 {
+        return rows;
+    }
     let shares = shares(n, t);
     let mut below = [T::ZERO; M];
-    let mut rows = [[T::ZERO; M]; LARGEST_DEGREE];
     for i in 0..n {
         let a = T::lit(ROOT_SERIES[i + 1]);
         for j in 0..M {

@@ -112,11 +112,11 @@ fn sum<T: Real, const N: usize>(term: impl FnMut(usize) -> T) -> T {
 impl<T: Real, const N: usize> Nodes<T, N> {
     #[inline(always)]
     pub(super) fn of_rule(degree: usize, t: [T; N], weights: [T; N]) -> Self {
-        Self {
-            ggx: GgxNodes::of_rule(t, weights),
-            degree,
-            series: series(degree, &t).map(|row| row.map(flushed)),
+        let mut series = series(degree, &t);
+        for row in &mut series[..degree] {
+            *row = row.map(flushed);
         }
+        Self { ggx: GgxNodes::of_rule(t, weights), degree, series }
     }
 
     /// σ of exponents above 2: with Tₙ + c = 1 − Σ aᵢ ρⁱ it takes one root and one quotient a node.
