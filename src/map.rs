@@ -15,7 +15,7 @@ mod isotropic;
 mod linear;
 
 pub use axis_aligned::AxisAligned;
-pub(crate) use gram::{Gram, difference_of_products};
+pub(crate) use gram::{Gram, difference_of_products, invertible};
 pub use isotropic::Isotropic;
 pub use linear::Linear;
 pub(crate) use linear::moved;

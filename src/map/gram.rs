@@ -1,6 +1,7 @@
 //! Positive definite matrices without cancellation, for constructors.
 
 use crate::Real;
+use crate::error::Error;
 
 /// A symmetric positive definite matrix RᵀR with |det R|, the root of its determinant, known more precisely
 /// than from its entries.
@@ -29,6 +30,17 @@ impl Gram {
         let slack = 1.0 + 8.0 * T::EPSILON.to_f64();
         alpha_max <= largest.to_f64() * slack && alpha_min * slack >= smallest.to_f64()
     }
+}
+
+/// The determinant of the matrix of these columns.
+///
+/// # Errors
+/// [`Error::Map`] unless its singular values are within the range of α; for NaN and ∞ too.
+pub(crate) fn invertible<T: Real>([[a, b], [c, d]]: [[f64; 2]; 2]) -> Result<f64, Error> {
+    let determinant = difference_of_products(a, d, b, c);
+    let root = determinant.abs();
+    let gram = Gram { xx: a * a + b * b, xy: a * c + b * d, yy: c * c + d * d, root };
+    if gram.in_range::<T>() { Ok(determinant) } else { Err(Error::Map { determinant }) }
 }
 
 /// a·b − c·d to about an ulp of the result, by exact products (Dekker 1971; Kahan's algorithm).

@@ -2,7 +2,7 @@
 
 use crate::Real;
 use crate::error::Error;
-use crate::map::{Gram, difference_of_products};
+use crate::map::invertible;
 use crate::microsurface::turned_into_view;
 use crate::ndf::{Ndf, SampleNdf, SampleVndf, Vec2, Vec3};
 use crate::vector::{dot, normalized};
@@ -72,12 +72,7 @@ impl<N: Ndf> Transformed<N> {
     }
 
     fn of_columns(ndf: N, columns: [[f64; 2]; 2]) -> Result<Self, Error> {
-        let [[a, b], [c, d]] = columns;
-        let det = difference_of_products(a, d, b, c);
-        let gram = Gram { xx: a * a + b * b, xy: a * c + b * d, yy: c * c + d * d, root: det.abs() };
-        if !gram.in_range::<N::Scalar>() {
-            return Err(Error::Map { determinant: det });
-        }
+        let ([[a, b], [c, d]], det) = (columns, invertible::<N::Scalar>(columns)?);
         let inverse = [[d / det, -b / det], [-c / det, a / det]];
         let [matrix, inverse] = [columns, inverse].map(|m| m.map(|column| column.map(N::Scalar::lit)));
         Ok(Self { ndf, matrix, inverse, area: N::Scalar::lit(det.abs()) })

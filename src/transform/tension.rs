@@ -14,7 +14,7 @@
 use crate::Real;
 use crate::error::Error;
 use crate::frame::Frame;
-use crate::map::{Gram, difference_of_products};
+use crate::map::{difference_of_products, invertible};
 use crate::vector::dot;
 
 /// A triangle at rest and deformed, with its texture coordinates.
@@ -89,12 +89,7 @@ impl<T: Real> Triangle<T> {
     /// ```
     pub fn tension(&self) -> Result<T::Mat2, Error> {
         let matrix = self.columns().ok_or(Error::Map { determinant: 0.0 })?;
-        let [[a, b], [c, d]] = matrix;
-        let det = difference_of_products(a, d, b, c);
-        let gram = Gram { xx: a * a + b * b, xy: a * c + b * d, yy: c * c + d * d, root: det.abs() };
-        if !gram.in_range::<T>() {
-            return Err(Error::Map { determinant: det });
-        }
+        invertible::<T>(matrix)?;
         Ok(T::matrix(matrix.map(|column| column.map(T::lit))))
     }
 

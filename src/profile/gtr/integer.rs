@@ -67,7 +67,8 @@ const fn remainders() -> [[f64; LARGEST_DEGREE]; LARGEST_DEGREE + 1] {
     rows
 }
 
-/// `x`, or 0 where it is so small that it only makes products denormal, which take a microcode assist each.
+/// `x`, or 0 where it is negative, as interpolation may leave a weight, or so small that it only makes products denormal,
+/// which take a microcode assist each.
 #[inline(always)]
 pub(super) fn flushed<T: Real>(x: T) -> T {
     if x < T::MIN_POSITIVE / (T::EPSILON * T::EPSILON) { T::ZERO } else { x }

@@ -7,8 +7,8 @@
 //! a Beta integral: a positive mixture of GTR of exponent n + 2 and width √t. For γ ≤ 2 that is GGX. As projected areas
 //! are linear in the density of slopes, the mask is the same mixture of masks.
 //!
-//! With t = (α² + y)/(1 + y), y = eˢ, the integrand over s is y^p (1 + y)^{−n−2} Kₙ(t), where
-//! 1/Kₙ = (n + 1) ∫ … is what normalises a component: Kₙ = Σᵢ t^{−i−1}, i = 0 … n. It is analytic for |Im s| < π and
+//! With t = (α² + y)/(1 + y), y = eˢ, the weight of a normalised component over s is y^p (1 + y)^{−n−2} Kₙ(t),
+//! Kₙ = Σᵢ t^{−i−1}, i = 0 … n, which is (n + 1) ∫ (x + 1)ⁿ/(x + t)^{n+2} dx over x ≥ 0. It is analytic for |Im s| < π and
 //! falls off exponentially at both ends, so that the trapezoid rule of step h has an error of about e^{−2π²/h}.
 //! Where all t equal an end to a relative δ, the remaining sum is geometric and is taken whole.
 

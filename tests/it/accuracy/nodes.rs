@@ -149,7 +149,7 @@ fn twelve_nodes() {
 /// What the dense grids are compared with.
 #[test]
 fn sixteen_nodes_are_those_of_the_table() {
-    for (alpha, bound) in [(1e-3, 4e-9), (0.01, 1e-11), (0.1, 1e-12)] {
+    for (alpha, bound) in [(1e-3, 4e-9), (0.01, 1e-11), (0.1, 3e-13)] {
         let worst = on_the_table::<f64, 16>(alpha);
         println!("16 nodes, α ≥ {alpha}: {:.2e} at {}", worst.error, worst.at);
         assert!(worst.error <= bound, "α ≥ {alpha}: {:e} at {}", worst.error, worst.at);
@@ -157,7 +157,7 @@ fn sixteen_nodes_are_those_of_the_table() {
     // f32: the rounding on top of eight nodes.
     let worst = on_the_table::<f32, 8>(0.01);
     println!("8 nodes, f32: {:.2e} at {}", worst.error, worst.at);
-    assert!(worst.error <= 8e-7, "f32: {:e} at {}", worst.error, worst.at);
+    assert!(worst.error <= 4.8e-7, "f32: {:e} at {}", worst.error, worst.at);
 }
 
 /// (n + 1) Σₖ C(n,k)/(k + 1) (1−t)ᵏ t^{−k−1}, from the definition: what normalises (x + 1)ⁿ/(x + t)^{n+2} over the plane.
@@ -243,7 +243,7 @@ fn tables_are_near_their_nodes() {
 #[test]
 fn masks_are_continuous() {
     let g1 = |alpha: f64, gamma: f64, w: DVec3| surface::<f64, 8>(alpha, gamma).g1(w, w);
-    for (alpha, jump) in [(1e-3, 2e-6), (0.01, 4e-7), (0.1, 4e-9), (0.5, 3e-10), (0.9, 3e-10)] {
+    for (alpha, jump) in [(1e-3, 2e-6), (0.01, 4e-7), (0.1, 4e-9), (0.5, 2.5e-11), (0.9, 6e-12)] {
         let mut worst = Worst::default();
         for integer in 0..=10_u8 {
             let gamma = f64::from(integer);
