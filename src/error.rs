@@ -44,6 +44,15 @@ pub enum Error {
         /// Its determinant, computed without cancellation.
         determinant: f64,
     },
+    /// A covariance of slopes is not finite, not positive semidefinite, or too large to be added to a roughness.
+    Covariance {
+        /// Its xx entry, slope² units.
+        xx: f64,
+        /// Its xy entry.
+        xy: f64,
+        /// Its yy entry.
+        yy: f64,
+    },
     /// A linear map is not finite, singular, or leaves the representable range of α.
     Map {
         /// The determinant of the map.
@@ -99,6 +108,10 @@ impl fmt::Display for Error {
                 f,
                 "roughness matrix [[{xx}, {xy}], [{xy}, {yy}]] with determinant {determinant} is not positive \
                  definite with principal alphas in range"
+            ),
+            Self::Covariance { xx, xy, yy } => write!(
+                f,
+                "covariance [[{xx}, {xy}], [{xy}, {yy}]] is not finite, not positive semidefinite or too large"
             ),
             Self::Map { determinant } => {
                 write!(f, "the map with determinant {determinant} is singular, not finite or out of range")

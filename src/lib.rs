@@ -87,6 +87,7 @@ struct Readme;
 pub mod bsdf;
 pub mod elementary;
 mod error;
+pub mod filter;
 pub mod frame;
 pub mod fresnel;
 pub mod map;

@@ -46,6 +46,9 @@ pub trait Profile<T: Real>: Copy {
     }
 }
 
+/// A profile without parameters of its own, whose width is the map's: filtering it is another map.
+pub trait ShapeInvariant: Copy {}
+
 /// A profile whose normals can be drawn with density D cos θ.
 pub trait SampleProfile<T: Real>: Profile<T> {
     /// A normal of the profile itself (map I), of any length, from u ∈ [0, 1)².
@@ -61,6 +64,8 @@ pub trait SampleVisibleProfile<T: Real>: Profile<T> {
 /// The constructors of a profile without parameters of its own, whose width is the map's.
 macro_rules! shape_invariant {
     ($profile:ident) => {
+        impl crate::profile::ShapeInvariant for $profile {}
+
         impl $profile {
             /// The distribution of slope width α in every direction.
             ///

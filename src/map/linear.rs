@@ -44,10 +44,13 @@ impl<T: Real> Linear<T> {
         let [[a, b], [c, d]] = r.map(|row| row.map(T::to_f64));
         let det = difference_of_products(a, d, b, c);
         let gram = Gram { xx: a * a + c * c, xy: a * b + c * d, yy: b * b + d * d, root: det.abs() };
-        if !gram.in_range::<T>() {
-            return Err(Error::Map { determinant: 1.0 / det });
-        }
-        Ok(Self::triangular(gram))
+        Self::of_gram(gram).ok_or(Error::Map { determinant: 1.0 / det })
+    }
+
+    /// The map of this RᵀR, unless it is not finite or leaves the range of α.
+    #[inline]
+    pub(crate) fn of_gram(gram: Gram) -> Option<Self> {
+        gram.in_range::<T>().then(|| Self::triangular(gram))
     }
 
     /// The map of a positive definite RᵀR: Cholesky's factor.
@@ -89,10 +92,7 @@ impl<T: Real> Linear<T> {
             yy: b * b + d * d,
             root: (determinant(r) / det).abs(),
         };
-        if !gram.in_range::<T>() {
-            return Err(Error::Map { determinant: det });
-        }
-        Ok(Self::triangular(gram))
+        Self::of_gram(gram).ok_or(Error::Map { determinant: det })
     }
 }
 

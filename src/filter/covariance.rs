@@ -1,0 +1,406 @@
+//! Covariances of slopes, and distributions convolved with them.
+
+use core::ops::Add;
+
+use crate::Real;
+use crate::error::Error;
+use crate::map::{Gram, Linear, Map, difference_of_products};
+use crate::microsurface::Microsurface;
+use crate::ndf::Vec2;
+use crate::profile::ShapeInvariant;
+use crate::profile::ggx::Ggx;
+use crate::roughness::RoughnessMatrix;
+
+/// The screen-space variance σ² of a pixel filter whose standard deviation is half a pixel, in pixels².
+///
+/// # References
+/// Kaplanyan, Hill, Patney and Lefohn 2016, §4.3; Tokuyoshi 2017, below Eq. 2.
+pub const VARIANCE_KAPLANYAN2016: f64 = 0.25;
+
+/// The screen-space variance σ² = 1/(2π) of the Gaussian whose peak is that of a box of one pixel, in pixels².
+///
+/// # References
+/// Tokuyoshi and Kaplanyan 2021.
+pub const VARIANCE_TOKUYOSHI2021: f64 = 0.5 * core::f64::consts::FRAC_1_PI;
+
+/// The screen-space variance of a box of one pixel, 1/12, in pixels²: that of the mean over a footprint.
+pub const VARIANCE_OF_BOX: f64 = 1.0 / 12.0;
+
+/// The usual limit κ of 2Σ, in slopes².
+///
+/// # References
+/// Kaplanyan 2016, "Stable specular highlights"; Tokuyoshi 2017, Eq. 10.
+pub const LARGEST_KERNEL: f64 = 0.18;
+
+/// A covariance Σ of slopes: a symmetric positive semidefinite 2×2 matrix, in slopes².
+///
+/// It is kept as a triangular factor, so that a degenerate Σ, of a line or of a point, stays positive
+/// semidefinite, and determinants of sums are sums of positive terms.
+///
+/// # Special cases
+/// Made of numbers that are not finite it is not finite itself; what is built from it then refuses it
+/// ([`Error::Covariance`]).
+///
+/// # Example
+/// ```
+/// use microsurface::filter::Covariance;
+/// let pixel = Covariance::new(0.04_f32, 0.01, 0.02)?;
+/// let texture = Covariance::isotropic(0.01);
+/// let both = pixel + texture; // of independent causes
+/// assert!((both.entries()[0] - 0.05).abs() < 1e-7 && (both.entries()[1] - 0.01).abs() < 1e-7);
+/// assert!((both.determinant() - (0.05 * 0.03 - 0.01 * 0.01)).abs() < 1e-8);
+/// # Ok::<(), microsurface::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Covariance<T> {
+    /// Σ = CᵀC with C = [[c11, c12], [0, c22]].
+    c11: T,
+    c12: T,
+    c22: T,
+}
+
+impl<T: Real> Covariance<T> {
+    /// The matrix [[xx, xy], [xy, yy]].
+    ///
+    /// # Errors
+    /// [`Error::Covariance`] unless it is finite and positive semidefinite; see [`nearest`](Self::nearest) for measured ones.
+    #[inline]
+    pub fn new(xx: T, xy: T, yy: T) -> Result<Self, Error> {
+        let [x, o, y] = [xx, xy, yy].map(T::to_f64);
+        let determinant = difference_of_products(x, y, o, o);
+        if !(x >= 0.0 && y >= 0.0 && determinant >= 0.0 && (x + y).is_finite()) {
+            return Err(Error::Covariance { xx: x, xy: o, yy: y });
+        }
+        Ok(Self::of(Gram { xx: x, xy: o, yy: y, root: Real::sqrt(determinant) }))
+    }
+
+    /// The positive semidefinite matrix of these entries, each limited to what its neighbours allow: negative
+    /// variances count as 0, and |xy| is at most √(xx yy).
+    ///
+    /// For moments of textures, whose difference E\[ttᵀ\] − E\[t\]E\[t\]ᵀ rounding can make negative.
+    #[inline]
+    #[must_use]
+    pub fn nearest(xx: T, xy: T, yy: T) -> Self {
+        let positive = |x: f64| if x < 0.0 { 0.0 } else { x };
+        let [x, o, y] = [positive(xx.to_f64()), xy.to_f64(), positive(yy.to_f64())];
+        let determinant = difference_of_products(x, y, o, o);
+        if determinant < 0.0 {
+            let limit = Real::sqrt(x) * Real::sqrt(y);
+            return Self::of(Gram { xx: x, xy: limit.copysign(o), yy: y, root: 0.0 });
+        }
+        Self::of(Gram { xx: x, xy: o, yy: y, root: Real::sqrt(determinant) })
+    }
+
+    /// The same variance in every direction.
+    #[inline]
+    #[must_use]
+    pub fn isotropic(variance: T) -> Self {
+        Self::axis_aligned(variance, variance)
+    }
+
+    /// Variances along the axes. Negative ones give NaN.
+    #[inline]
+    #[must_use]
+    pub fn axis_aligned(xx: T, yy: T) -> Self {
+        Self { c11: xx.sqrt(), c12: T::ZERO, c22: yy.sqrt() }
+    }
+
+    /// Of no slopes at all: filtering with it changes nothing.
+    #[inline]
+    #[must_use]
+    pub fn zero() -> Self {
+        Self { c11: T::ZERO, c12: T::ZERO, c22: T::ZERO }
+    }
+
+    /// variance · (uᵀu + vᵀv).
+    #[inline]
+    pub(super) fn of_rows(u: [T; 2], v: [T; 2], variance: T) -> Self {
+        let ([a, b], [c, d]) = (u.map(T::to_f64), v.map(T::to_f64));
+        let s = variance.to_f64();
+        // Exact products: for a narrow footprint the determinant is a small difference.
+        let root = s * difference_of_products(a, d, b, c).abs();
+        Self::of(Gram { xx: s * (a * a + c * c), xy: s * (a * b + c * d), yy: s * (b * b + d * d), root })
+    }
+
+    /// Cholesky's factor; without variance along x, what is left is along y.
+    #[inline]
+    fn of(Gram { xx, xy, yy, root }: Gram) -> Self {
+        let c11 = Real::sqrt(xx);
+        if c11 > 0.0 {
+            return Self { c11: T::lit(c11), c12: T::lit(xy / c11), c22: T::lit(root / c11) };
+        }
+        // NaN stays NaN.
+        Self { c11: T::lit(c11), c12: T::lit(c11), c22: T::lit(Real::sqrt(yy) + c11) }
+    }
+
+    /// C, Σ = CᵀC.
+    #[inline]
+    fn factor(&self) -> [f64; 3] {
+        [self.c11, self.c12, self.c22].map(T::to_f64)
+    }
+
+    /// The entries [xx, xy, yy].
+    #[inline]
+    #[must_use]
+    pub fn entries(&self) -> [T; 3] {
+        let [a, b, d] = self.factor();
+        [a * a, a * b, b * b + d * d].map(T::lit)
+    }
+
+    /// xx + yy, the mean squared length of a slope.
+    #[inline]
+    #[must_use]
+    pub fn trace(&self) -> T {
+        let [a, b, d] = self.factor();
+        T::lit(a * a + b * b + d * d)
+    }
+
+    /// The determinant, a square: never negative, and without cancellation.
+    #[inline]
+    #[must_use]
+    pub fn determinant(&self) -> T {
+        let root = self.c11 * self.c22;
+        root * root
+    }
+
+    /// The larger and the smaller eigenvalue, and the angle in (−π/2, π/2] of the direction of the larger.
+    #[must_use]
+    pub fn principal(&self) -> [T; 3] {
+        let [a, b, d] = self.factor();
+        let (difference, twice_xy) = (a * a - b * b - d * d, 2.0 * a * b);
+        let largest = 0.5 * (a * a + b * b + d * d + Real::sqrt(difference * difference + twice_xy * twice_xy));
+        let smallest = if largest > 0.0 { (a * d) * (a * d) / largest } else { largest };
+        [largest, smallest, 0.5 * crate::real::construction::atan2(twice_xy, difference)].map(T::lit)
+    }
+
+    /// Whether all entries are finite.
+    #[inline]
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        self.trace().is_finite()
+    }
+
+    /// factor · Σ. Negative factors give NaN.
+    #[inline]
+    #[must_use]
+    pub fn scaled(&self, factor: T) -> Self {
+        let root = factor.sqrt();
+        Self { c11: root * self.c11, c12: root * self.c12, c22: root * self.c22 }
+    }
+
+    /// J Σ Jᵀ: the covariance of J t, for slopes seen in other coordinates.
+    #[inline]
+    #[must_use]
+    pub fn transformed(&self, jacobian: T::Mat2) -> Self {
+        let [[j11, j21], [j12, j22]] = T::columns(jacobian);
+        let (u, v) = (
+            [j11 * self.c11 + j12 * self.c12, j21 * self.c11 + j22 * self.c12],
+            [j12 * self.c22, j22 * self.c22],
+        );
+        Self::of_rows(u, v, T::ONE)
+    }
+
+    /// Σ with both eigenvalues limited, the directions kept.
+    ///
+    /// The usual limit κ of 2Σ ([`LARGEST_KERNEL`]) is a limit of κ/2. A Σ that is not finite becomes `limit` in every
+    /// direction: the largest kernel, where nothing is known.
+    #[must_use]
+    pub fn clamped(&self, limit: T) -> Self {
+        if !self.is_finite() {
+            return Self::isotropic(limit);
+        }
+        let [largest, smallest, _] = self.principal();
+        if largest <= limit {
+            return *self;
+        }
+        if smallest >= limit {
+            return Self::isotropic(limit);
+        }
+        // limit·I for the larger eigenvalue, what is missing to the smaller one taken from the direction across:
+        // Σ' = f Σ + g I has the eigenvectors of Σ.
+        let (l, s, limit) = (largest.to_f64(), smallest.to_f64(), limit.to_f64());
+        let f = (limit - s) / (l - s);
+        let g = s * (l - limit) / (l - s);
+        let [xx, xy, yy] = self.entries().map(T::to_f64);
+        Self::of(Gram { xx: f * xx + g, xy: f * xy, yy: f * yy + g, root: Real::sqrt(limit * s) })
+    }
+}
+
+/// The covariance of the sum of two independent slopes: a nested convolution.
+///
+/// # References
+/// Kaplanyan, Hill, Patney and Lefohn 2016, Eqs. 15 and 21.
+impl<T: Real> Add for Covariance<T> {
+    type Output = Self;
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        Self::of(sum(self.factor(), other.factor(), 1.0))
+    }
+}
+
+/// RᵀR + scale·CᵀC, of triangular factors.
+///
+/// With adj(R) the adjugate, det = (det R)² + scale (|adj(R)ᵀc₁|² + |adj(R)ᵀc₂|²) + scale² (det C)², c₁ and c₂ the
+/// rows of C: every term is positive.
+#[inline]
+fn sum([r11, r12, r22]: [f64; 3], [c11, c12, c22]: [f64; 3], scale: f64) -> Gram {
+    let mixed = {
+        let (a, b, c) = (r22 * c11, r11 * c12 - r12 * c11, r11 * c22);
+        a * a + b * b + c * c
+    };
+    let (det_r, det_c) = (r11 * r22, scale * (c11 * c22));
+    Gram {
+        xx: r11 * r11 + scale * (c11 * c11),
+        xy: r11 * r12 + scale * (c11 * c12),
+        yy: r12 * r12 + r22 * r22 + scale * (c12 * c12 + c22 * c22),
+        root: Real::sqrt(det_r * det_r + scale * mixed + det_c * det_c),
+    }
+}
+
+/// The inverse map of a surface as a triangular factor.
+#[inline]
+pub(super) fn factor<M: Map>(map: &M) -> [f64; 3] {
+    let [[r11, r12], [_, r22]] = map.inverse().map(|row| row.map(Real::to_f64));
+    [r11, r12, r22]
+}
+
+impl<P: ShapeInvariant, M: Map> Microsurface<P, M> {
+    /// The surface whose roughness matrix is A + 2Σ.
+    ///
+    /// For [`Beckmann`](crate::Beckmann) it is the convolution with a Gaussian of covariance Σ, exactly. For
+    /// [`Ggx`](crate::Ggx) it is the "proxy" of Kaplanyan et al. 2016: its peak is too high by up to 24 % and its tail by a
+    /// factor 1 + 2σ²/α²; [`gaussian::filtered`](crate::filter::gaussian::filtered) is nearer to the convolution.
+    ///
+    /// # Errors
+    /// [`Error::Covariance`] if Σ is not finite or makes a principal α larger than
+    /// [`alpha_range`](crate::roughness::alpha_range).
+    ///
+    /// # Accuracy
+    /// The determinant is a sum of positive terms, so a long thin Σ loses no digits. A is exact to 2ε of its entries.
+    ///
+    /// # Example
+    /// ```
+    /// use microsurface::{Beckmann, Ndf, filter::Footprint, glam::Vec2};
+    /// let surface = Beckmann::isotropic(0.01_f32)?;
+    /// // The half vector moves by 0.05 in slope from one pixel to the next.
+    /// let footprint = Footprint::<f32>::new(Vec2::new(0.05, 0.0), Vec2::new(0.0, 0.002));
+    /// let filtered = surface.filtered(footprint.covariance(0.25))?;
+    /// let [alpha, _, _] = filtered.roughness_matrix()?.principal();
+    /// assert!((alpha - (0.01_f32 * 0.01 + 2.0 * 0.25 * 0.05 * 0.05).sqrt()).abs() < 1e-6);
+    /// # Ok::<(), microsurface::Error>(())
+    /// ```
+    ///
+    /// # References
+    /// Kaplanyan, Hill, Patney and Lefohn 2016, Eqs. 13–15 and 20; Tokuyoshi 2017, Eqs. 2 and 3.
+    #[inline]
+    pub fn filtered(
+        &self,
+        covariance: Covariance<M::Scalar>,
+    ) -> Result<Microsurface<P, Linear<M::Scalar>>, Error> {
+        self.widened(covariance, 2.0)
+    }
+
+    /// The surface whose roughness matrix is A + factor·Σ.
+    #[inline]
+    pub(super) fn widened(
+        &self,
+        covariance: Covariance<M::Scalar>,
+        factor_of_sigma: f64,
+    ) -> Result<Microsurface<P, Linear<M::Scalar>>, Error> {
+        let gram = sum(factor(self.map()), covariance.factor(), factor_of_sigma);
+        match Linear::of_gram(gram) {
+            Some(map) => Ok(Microsurface::new(*self.profile(), map)),
+            None => {
+                let [xx, xy, yy] = covariance.entries().map(Real::to_f64);
+                Err(Error::Covariance { xx, xy, yy })
+            }
+        }
+    }
+
+    /// How much filtering with Σ would change P22 at most, as a share of its peak: what is lost without.
+    ///
+    /// max |P22' − P22|/P22(0) = 1 − √(det A/det(A + 2Σ)), at slope 0. Below the error that a picture may show, filtering
+    /// can be skipped; of an 8-bit picture that is about 1/256.
+    ///
+    /// # Returns
+    /// 0 for Σ = 0, growing with Σ towards 1; NaN for a Σ that is not finite.
+    ///
+    /// # Accuracy
+    /// Exact for Beckmann; for GGX filtered by a true Gaussian the peak falls by more, at most 2 times as much.
+    ///
+    /// # Example
+    /// ```
+    /// use microsurface::{Ggx, filter::Covariance};
+    /// let rough = Ggx::isotropic(0.5_f32)?;
+    /// assert!(rough.change_by_filter(Covariance::isotropic(1e-4)) < 1e-3); // not worth a filter
+    /// # Ok::<(), microsurface::Error>(())
+    /// ```
+    #[inline]
+    #[must_use]
+    pub fn change_by_filter(&self, covariance: Covariance<M::Scalar>) -> M::Scalar {
+        let r = factor(self.map());
+        let (before, after) = (r[0] * r[2], sum(r, covariance.factor(), 2.0).root);
+        // 1 − before/after without the difference of equal numbers: after² − before² is a sum.
+        let [r11, r12, r22] = r;
+        let [c11, c12, c22] = covariance.factor();
+        let (a, b, c) = (r22 * c11, r11 * c12 - r12 * c11, r11 * c22);
+        let det_c = 2.0 * (c11 * c22);
+        let gained = 2.0 * (a * a + b * b + c * c) + det_c * det_c;
+        M::Scalar::lit(gained / (after * (after + before)))
+    }
+}
+
+impl<M: Map> Microsurface<Ggx, M> {
+    /// How much filtering with Σ would change P22 at this slope, as a share of P22 there: an upper bound.
+    ///
+    /// 10 tr(A⁻¹Σ)/(1 + tᵀA⁻¹t): far from the highlight the tail is smooth on the scale of the slope itself, and a pixel
+    /// there needs no filter even where the highlight needs one.
+    ///
+    /// # Returns
+    /// 0 for Σ = 0. Above about 0.1 filter: the bound is that of the second derivative, and holds where it is small.
+    ///
+    /// # Example
+    /// ```
+    /// use microsurface::{Ggx, filter::Covariance, glam::Vec2};
+    /// let (surface, kernel) = (Ggx::isotropic(0.01_f32)?, Covariance::isotropic(1e-5));
+    /// assert!(surface.change_by_filter_at(Vec2::ZERO, kernel) > 0.1); // in the highlight
+    /// assert!(surface.change_by_filter_at(Vec2::new(0.3, 0.0), kernel) < 0.01); // beside it
+    /// # Ok::<(), microsurface::Error>(())
+    /// ```
+    #[inline]
+    #[must_use]
+    pub fn change_by_filter_at(&self, slope: Vec2<Self>, covariance: Covariance<M::Scalar>) -> M::Scalar {
+        let [r11, r12, r22] = factor(self.map());
+        let [c11, c12, c22] = covariance.factor();
+        // C R⁻¹, whose rows are the rows of C as the profile sees them.
+        let (a, c) = (c11 / r11, c22 / r22);
+        let b = (c12 - r12 * a) / r22;
+        let [x, y] = seen_by_profile(self.map(), slope);
+        M::Scalar::lit(10.0 * (a * a + b * b + c * c) / (1.0 + x * x + y * y))
+    }
+}
+
+/// det(A + 2Σ) as a shader computes it: from the entries of the sum, and not below αx²αy² of the surface itself.
+///
+/// The difference of products loses all digits for long thin kernels, which the limit hides; [`Microsurface::filtered`]
+/// adds positive terms instead. Here for comparison.
+///
+/// # References
+/// Tokuyoshi and Kaplanyan 2019, supplement, §1, "Practical implementation" (τ).
+#[inline]
+#[must_use]
+pub fn determinant_tokuyoshi2019<T: Real>(matrix: &RoughnessMatrix<T>, covariance: Covariance<T>) -> T {
+    let ([axx, axy, ayy], [sxx, sxy, syy]) = (matrix.entries(), covariance.entries());
+    let (xx, xy, yy) = (axx + T::TWO * sxx, axy + T::TWO * sxy, ayy + T::TWO * syy);
+    let least = axx * ayy - axy * axy;
+    (xx * yy - xy * xy).max(least)
+}
+
+/// Mᵀt: a slope of the surface as the profile sees it.
+#[inline]
+pub(super) fn seen_by_profile<M: Map>(map: &M, slope: <M::Scalar as Real>::Vec2) -> [f64; 2] {
+    let [r11, r12, r22] = factor(map);
+    let [x, y]: [M::Scalar; 2] = slope.into();
+    let x = x.to_f64() / r11;
+    [x, (y.to_f64() - r12 * x) / r22]
+}
