@@ -18,7 +18,7 @@
 //! | [`exp_wide`] | 0 | 0 | range reduction in f64 |
 //! | [`ln`], [`ln_1p`], [`ln_wide`] | 1 | 0 | |
 //! | [`pow_wide`] | 1 | 0 | a logarithm and an exponential |
-//! | [`erf`], [`ierfcx`] | 1 | 0 | |
+//! | [`erf`], [`ierfcx`], [`atan2`] | 1 | 0 | |
 //! | [`erfc`], [`erfcx`] | 1 | 0 | an exponential |
 //! | [`erf_inv`], [`erfc_inv`] | 2 | 1 | a logarithm |
 
@@ -38,4 +38,4 @@ pub use exp::{exp, exp_m1, exp_neg_square, exp_wide};
 pub(crate) use log::{inverse_power_of_ratio, inverse_root};
 pub use log::{ln, ln_1p, ln_wide, pow_wide};
 pub(crate) use trig::sin_cos_of_turn;
-pub use trig::sin_cos_turns;
+pub use trig::{atan2, sin_cos_turns};

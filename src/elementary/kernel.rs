@@ -48,6 +48,10 @@ pub trait Kernel: Copy {
     const SIN_OF_TURN: &'static [f64];
     /// cos(2πt)/(1 − 16t²) in t².
     const COS_OF_TURN: &'static [f64];
+    /// See [`super::atan2`].
+    const ATAN: &'static [f64];
+    /// π/4 as a sum.
+    const FRAC_PI_4: (f64, f64);
     /// See [`super::erf`].
     const ERF: [&'static [f64]; 2];
     /// See [`super::erfcx`].

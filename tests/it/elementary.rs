@@ -41,6 +41,7 @@ const BUDGET: &[Budget] = budget! {
     "pow",            e::pow_wide,                   |x, g| e::pow_wide(f64::from(x), g), (0.9, 0.2314177), (0.8, 1.495945), (0.0, 4.0);
     "sin_turns",      |x, _| e::sin_cos_turns(x).0,  |x, _| e::sin_cos_turns(x).0,  (1.7, -0.4167125), (1.75, -7.917152), (-2.0, 2.0);
     "cos_turns",      |x, _| e::sin_cos_turns(x).1,  |x, _| e::sin_cos_turns(x).1,  (1.7, 0.3402042), (1.75, -1.832848), (-2.0, 2.0);
+    "atan2",          e::atan2,                      e::atan2,                      (1.8, 0.4142136), (1.8, 0.7680408), (-3.0, 3.0);
     "erf",            |x, _| e::erf(x),              |x, _| e::erf(x),              (5.5, 3.93), (6.0, 3.3330584), (-4.0, 4.0);
     "erfc",           |x, _| e::erfc(x),             |x, _| e::erfc(x),             (5.5, 5.567562), (6.0, 3.6562011), (-4.0, 10.1);
     "erfcx",          |x, _| e::erfcx(x),            |x, _| e::erfcx(x),            (5.5, 16384.0), (7.0, 1189.482), (-9.5, 20.0);
@@ -159,7 +160,11 @@ fn f32_is_as_accurate_as_stated() {
             let (from, to) = budget.domain;
             let x = if i % 2 == 0 { f32::from_bits(bits) } else { from + (to - from) * uniform as f32 };
             let span = 90.0 * (2.0 * random.uniform() - 1.0);
-            let g = if budget.name == "pow" { (span / e::ln(f64::from(x))) as f32 } else { 0.0 };
+            let g = match budget.name {
+                "pow" => (span / e::ln(f64::from(x))) as f32,
+                "atan2" => (span / 30.0) as f32,
+                _ => 0.0,
+            };
             single(&mut worst, (x, g), (budget.single)(x, g), (budget.double)(f64::from(x), f64::from(g)));
         }
         worst.check(budget.name, budget.f32, &mut failures);
@@ -261,6 +266,28 @@ fn special_powers() {
     }
 }
 
+#[test]
+#[rustfmt::skip]
+fn special_angles() {
+    let (inf, pi) = (f64::INFINITY, core::f64::consts::PI);
+    for (y, x, want) in [
+        (0.0, 1.0, 0.0), (-0.0, 1.0, -0.0), (0.0, -1.0, pi), (-0.0, -1.0, -pi), (0.0, 0.0, 0.0), (0.0, -0.0, pi),
+        (-0.0, -0.0, -pi), (1.0, 0.0, pi / 2.0), (-1.0, 0.0, -pi / 2.0), (inf, 1.0, pi / 2.0), (1.0, inf, 0.0),
+        (1.0, -inf, pi), (inf, inf, pi / 4.0), (-inf, -inf, -0.75 * pi), (1e-300, -1e300, pi),
+        (f64::MAX, f64::MAX, pi / 4.0), (5e-324, 5e-324, pi / 4.0), (1.0, 1.0, pi / 4.0), (-1.0, 1.0, -pi / 4.0),
+    ] {
+        for (got, want) in [(e::atan2(y, x), want), (f64::from(e::atan2(y as f32, x as f32)), f64::from(want as f32))] {
+            // Denormals of f64 are 0 in f32.
+            if (y as f32 != 0.0 || y == 0.0) && (x as f32 != 0.0 || x == 0.0) {
+                assert!(got == want && got.is_sign_negative() == want.is_sign_negative(), "{y} {x}: {got} {want}");
+            }
+        }
+    }
+    for (y, x) in [(f64::NAN, 1.0), (1.0, f64::NAN), (f64::NAN, f64::NAN), (f64::NAN, inf), (0.0, f64::NAN)] {
+        assert!(e::atan2(y, x).is_nan() && e::atan2(y as f32, x as f32).is_nan(), "{y} {x}");
+    }
+}
+
 /// What must not jump where intervals or exponents meet: neighbours differ by the slope and a few ulp.
 #[test]
 fn monotonic_where_the_slope_exceeds_the_error() {
@@ -298,7 +325,7 @@ fn inverses_invert() {
 fn every_f32() {
     let stride = std::env::var("STRIDE").map_or(1, |stride| stride.parse().expect("a number"));
     let mut failures = Vec::new();
-    for budget in BUDGET.iter().filter(|budget| budget.name != "pow") {
+    for budget in BUDGET.iter().filter(|budget| budget.name != "pow" && budget.name != "atan2") {
         let mut worst = Worst::default();
         for bits in (0..=u32::MAX).step_by(stride) {
             let x = f32::from_bits(bits);

@@ -165,3 +165,8 @@ for x in uniform(0, 1, 120) + uniform(1, 100, 30) + logarithmic(1e-300, 1e300, 6
         g = f32(g) if abs(g) < 1e38 else g
         if abs(g * ln) < span:
             row("pow", x, g, mp.power(mpf(x), mpf(g)))
+for y, x in ([(0.0, 1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (3e38, -3e38), (3e38, 1e-38), (1e300, -1e308)]
+             + list(zip(uniform(-1, 1, 400), uniform(-1, 1, 400))) + list(zip(uniform(-5, 5, 300), uniform(0, 3, 300)))
+             + list(zip(logarithmic(1e-30, 1e30, 100, True), logarithmic(1e-7, 1e7, 100, True)))
+             + [(y, 1.0) for y in around(math.sqrt(2) - 1, 4) + around(1.0, 4)]):
+    row("atan2", y, x, mp.atan2(mpf(y), mpf(x)))

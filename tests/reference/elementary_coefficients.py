@@ -307,6 +307,14 @@ def cos_of_turn(z):  # cos(2πt) = (1 - 16 z) P(z)
     return cos(2 * pi * sqrt(z)) / (1 - 16 * z)
 
 
+ATAN_END = (sqrt(mpf(2)) - 1) ** 2 * mpf("1.0001")
+
+
+def atan_tail(z):  # atan(r) = r + r z P(z), z = r²
+    r = sqrt(z)
+    return (mp.atan(r) / r - 1) / z
+
+
 def erf_ratio(z):  # erf(x) = x P(z), z = x²
     return erf(sqrt(z)) / sqrt(z)
 
@@ -328,6 +336,8 @@ for scalar in "f32", "f64":
           lambda: relative(cos_tail, 0, mpf(1) / 64, lambda z: z), 3 if single else 6)
     table("SIN_OF_TURN", scalar, "sin(2πt)/t in t², |t| ≤ ¼, relative",
           lambda: relative(sin_of_turn, 0, mpf(1) / 16), 4 if single else 8)
+    table("ATAN", scalar, "(atan(r)/r - 1)/r² in r², |r| ≤ tan(π/8), relative to the arcus tangent",
+          lambda: relative(atan_tail, mpf(10) ** -30, ATAN_END, lambda z: z), 4 if single else 9)
     table("COS_OF_TURN", scalar, "cos(2πt)/(1 - 16t²) in t², relative",
           lambda: relative(cos_of_turn, 0, mpf(1) / 16), 4 if single else 8)
     table("ERF", scalar, "erf(x)/x in x², relative",
