@@ -35,6 +35,8 @@
 
 pub mod covariance;
 mod footprint;
+pub mod polygon;
+pub mod rectangle;
 
 pub use covariance::Covariance;
 pub use footprint::Footprint;
