@@ -33,8 +33,12 @@
 //! specular antialiasing", and 2021, "Stable geometric specular antialiasing with projected-space NDF filtering",
 //! JCGT 10(2).
 
+mod aligned;
 pub mod covariance;
+pub mod deferred;
 mod footprint;
+pub mod normal_map;
+pub mod projected;
 
 pub use covariance::Covariance;
 pub use footprint::Footprint;

@@ -135,7 +135,7 @@ impl<T: Real> Covariance<T> {
 
     /// C, Σ = CᵀC.
     #[inline]
-    fn factor(&self) -> [f64; 3] {
+    pub(super) fn factor(&self) -> [f64; 3] {
         [self.c11, self.c12, self.c22].map(T::to_f64)
     }
 
@@ -168,7 +168,8 @@ impl<T: Real> Covariance<T> {
     pub fn principal(&self) -> [T; 3] {
         let [a, b, d] = self.factor();
         let (difference, twice_xy) = (a * a - b * b - d * d, 2.0 * a * b);
-        let largest = 0.5 * (a * a + b * b + d * d + Real::sqrt(difference * difference + twice_xy * twice_xy));
+        let largest =
+            0.5 * (a * a + b * b + d * d + Real::sqrt(difference * difference + twice_xy * twice_xy));
         let smallest = if largest > 0.0 { (a * d) * (a * d) / largest } else { largest };
         [largest, smallest, 0.5 * crate::real::construction::atan2(twice_xy, difference)].map(T::lit)
     }
