@@ -21,7 +21,8 @@
 //! shader's `saturate` is left to the caller: α may be above 1.
 //!
 //! # Accuracy
-//! α' to 0.5ε for f32 and 2ε for f64 of the derivatives given.
+//! Computed in f64 and rounded once. The derivatives are the error: differences of unit normals in f32 are uncertain by
+//! 1e-7 each.
 //!
 //! # References
 //! Kaplanyan, Hill, Patney and Lefohn 2016, §§5.3 and 5.4; Tokuyoshi 2017, §4; Tokuyoshi and Kaplanyan 2021, Eq. 14.

@@ -159,7 +159,7 @@ fn complement([r11, r12, r22]: [f64; 3]) -> ([f64; 3], f64) {
 /// [`Error::Covariance`] unless v is finite and not negative.
 ///
 /// # Accuracy
-/// α' to 0.5ε for f32, 2ε for f64.
+/// α' to 0.51ε for f32, 1.5ε for f64.
 ///
 /// # Example
 /// ```

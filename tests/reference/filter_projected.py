@@ -40,7 +40,7 @@ def rotation(t):
 def rows():
     rng = random.Random(2021)
     below_one = [mpf("1e-6"), mpf("1e-3"), mpf("0.05"), mpf("0.5"), mpf("0.9"), 1 - mpf(2) ** -10, 1 - mpf(2) ** -22]
-    for count in range(240):
+    for count in range(300):
         alphas = [rng.choice(below_one), rng.choice(below_one)]
         if count % 8 == 7:
             alphas[count // 8 % 2] = mpf(rng.choice([1.5, 30, 1000]))
@@ -54,7 +54,10 @@ def rows():
         thin = rng.choice([0, 1e-6, 1e-3, 0.3, 1])
         axes = rotation(mpf(angle)) * matrix([[size, 0], [0, size * thin]]) * rotation(mpf(rng.uniform(0, 6))).T
         du, dv = [[f32(axes[0, i]), f32(axes[1, i])] for i in (0, 1)]
-        if thin == 0:
+        if count >= 240:
+            # Along the axes, for the forms that keep the type of the map.
+            r[0, 1], du[1], dv[0] = mpf(0), mpf(0), mpf(0)
+        elif thin == 0:
             dv = [2 * x for x in du] if count % 2 else [mpf(0), mpf(0)]
         steps = matrix([du, dv])
         variance = f32(rng.choice([0.25, 0.15915494309189535, 0.08333333333333333]))
