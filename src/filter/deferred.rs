@@ -237,7 +237,7 @@ pub fn max_eigenvalue<T: Real>(alpha: T, footprint: Footprint<T>, kernel: &Kerne
 
 /// [αx', αy'] by the bounding rectangle b of the footprint: αᵢ'² = αᵢ² + min(2σ²bᵢ², κ).
 ///
-/// Not an upper bound: of a footprint along a diagonal the largest eigenvalue is 2σ²b², and twice this kernel.
+/// Not an upper bound, though the papers take it for one: along a diagonal, 2Σ has the eigenvalue 4σ²b², twice this kernel.
 ///
 /// # Special cases
 /// As of the [module](self): a footprint that is not finite has the kernel κ along both axes. NaN for α = NaN.

@@ -128,7 +128,7 @@ impl<T: Real> Moments<T> {
     /// # Example
     /// ```
     /// use microsurface::{filter::normal_map::Moments, glam::Vec2};
-    /// let ridges = [1.0_f32, -1.0].map(|x| Moments::of_slope(Vec2::new(x, 0.0)));
+    /// let ridges = [1.0, -1.0].map(|x| Moments::<f32>::of_slope(Vec2::new(x, 0.0)));
     /// let flat = Moments::mean(ridges).ok_or("none")?;
     /// assert!(flat.mean_slope() == Vec2::ZERO && flat.covariance().entries() == [1.0, 0.0, 0.0]);
     /// # Ok::<(), &str>(())
@@ -234,7 +234,7 @@ impl<T: Real> Moments<T> {
     /// # Example
     /// ```
     /// use microsurface::{filter::{Covariance, normal_map::Moments}, glam::Vec2};
-    /// let tilted_by_45_degrees = Moments::new(Vec2::new(1.0_f32, 0.0), Covariance::isotropic(0.01));
+    /// let tilted_by_45_degrees = Moments::<f32>::new(Vec2::new(1.0, 0.0), Covariance::isotropic(0.01));
     /// let (_, covariance) = tilted_by_45_degrees.tilted();
     /// let [along, _, across] = covariance.entries();
     /// assert!((along - 0.01 / 4.0).abs() < 1e-8 && (across - 0.01 / 2.0).abs() < 1e-8);

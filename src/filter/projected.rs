@@ -44,7 +44,8 @@ use super::covariance::factor;
 ///
 /// # Special cases
 /// A footprint of 0 gives the same surface. Where a principal α is 1 or more, it stays as it is; see the
-/// [module](self). Footprints of any size give A' ≤ I where A ≤ I.
+/// [module](self). Footprints of any size (in f64 up to 1e70) give
+/// A' ≤ I where A ≤ I.
 ///
 /// # Errors
 /// [`Error::Covariance`] if Σ is not finite. [`Footprint::clamped`] makes footprints finite.
