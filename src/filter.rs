@@ -35,6 +35,9 @@
 
 pub mod covariance;
 mod footprint;
+pub mod jacobian;
+pub mod quad;
+pub mod ray;
 
 pub use covariance::Covariance;
 pub use footprint::Footprint;

@@ -1,0 +1,3 @@
+//! Filtering.
+
+mod footprints;
