@@ -73,7 +73,7 @@ impl<T: Real> RayDifferential<T> {
     ) -> Self {
         let zero = [T::ZERO; 3].into();
         let steps = [direction_du, direction_dv].map(|step| focus.point_step(direction, step));
-        Self::of_unnormalised([zero, zero], focus.from_lens(lens, direction), steps)
+        Self::of_unnormalised([zero, zero], focus.seen_from(lens, direction), steps)
     }
 
     /// Of the rays of a thin lens, by the point on the lens, the pixel fixed: `lens` from the centre of the lens, and its
@@ -94,7 +94,7 @@ impl<T: Real> RayDifferential<T> {
             let step: [T; 3] = step.into();
             step.map(|c| -c).into()
         });
-        Self::of_unnormalised([lens_du, lens_dv], focus.from_lens(lens, direction), steps)
+        Self::of_unnormalised([lens_du, lens_dv], focus.seen_from(lens, direction), steps)
     }
 
     #[inline]
@@ -173,12 +173,12 @@ impl<T: Real> FocusPlane<T> {
     #[inline]
     #[must_use]
     pub fn direction(&self, lens: T::Vec3, direction: T::Vec3) -> T::Vec3 {
-        unit_and_length(self.from_lens(lens, direction)).0.into()
+        unit_and_length(self.seen_from(lens, direction)).0.into()
     }
 
     /// From a point on the lens to the point in focus.
     #[inline]
-    fn from_lens(&self, lens: T::Vec3, direction: T::Vec3) -> [T; 3] {
+    fn seen_from(&self, lens: T::Vec3, direction: T::Vec3) -> [T; 3] {
         let d = direction.into();
         let scale = self.distance / dot(self.axis.into(), d);
         minus(d.map(|c| scale * c), lens.into())
