@@ -32,7 +32,7 @@ use crate::frame::Frame;
 ///
 /// # Accuracy
 /// Let S be the size of what dH is the sum of: the steps of point and light over the distance to the light, those of point and
-/// eye over that to the eye, and |ω||H|. Then slope steps are exact to 2ε S (1 + |h|)/H.z², and projected ones to 2ε S/|H|.
+/// eye over that to the eye, and |ω||H|. Then slope steps are exact to 2.5ε S (1 + |h|)/H.z², and projected ones to 2.5ε S/|H|.
 ///
 /// # Example
 /// ```
