@@ -14,7 +14,7 @@
 //! |---|---|---|
 //! | [`Microsurface::filtered`](crate::Microsurface::filtered): A + 2Σ | Beckmann ⊛ Gaussian | a map; evaluation as of any surface |
 //! | [`projected::filtered`] | – ; has no artefacts at grazing angles | the same |
-//! | [`gaussian::filtered`] | GGX ⊛ Gaussian to a few per cent, its tail kept | a GGX and a Beckmann |
+//! | [`gaussian::filtered`] | GGX ⊛ Gaussian to 2 %, its tail kept | a GGX and six Beckmann surfaces, or [one](gaussian::filtered_by_two) |
 //! | [`polygon::mean_p22`] | every profile with closed forms, over the parallelogram of the footprint | four arcus tangents |
 //! | [`rectangle::mean_p22`] | the same over a box, and Beckmann | the same; Beckmann: error functions |
 //! | [`deferred`] | – ; one number per pixel, before any light is known | a few products |
@@ -34,9 +34,11 @@
 //! JCGT 10(2).
 
 mod aligned;
+mod convolution;
 pub mod covariance;
 pub mod deferred;
 mod footprint;
+pub mod gaussian;
 pub mod jacobian;
 pub mod normal_map;
 pub mod polygon;
@@ -45,5 +47,6 @@ pub mod quad;
 pub mod ray;
 pub mod rectangle;
 
+pub use convolution::determinant_tokuyoshi2019;
 pub use covariance::Covariance;
 pub use footprint::Footprint;

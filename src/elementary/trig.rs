@@ -114,9 +114,9 @@ pub fn atan2<T: Real>(y: T, x: T) -> T {
     let left = T::ONE.copysign(x) < T::ZERO;
     let (sign, eighths) = if left { (-sign, T::lit(4.0) - eighths) } else { (sign, eighths) };
     let angle = eighths * T::lit(quarter) + (sign * r + (sign * small + eighths * T::lit(quarter_low)));
-    // max and min of IEEE would have dropped a NaN; comparisons do not see it either.
-    let nan = (x * T::ZERO) * (y * T::ZERO);
-    let angle = if x != x || y != y { nan } else { angle };
+    // The comparisons above may have dropped a NaN.
+    let numbers = a <= T::INFINITY && b <= T::INFINITY;
+    let angle = if numbers { angle } else { (x + y) * T::ZERO };
     angle.copysign(y)
 }
 

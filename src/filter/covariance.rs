@@ -1,15 +1,10 @@
-//! Covariances of slopes, and distributions convolved with them.
+//! Covariances of slopes.
 
 use core::ops::Add;
 
 use crate::Real;
 use crate::error::Error;
-use crate::map::{Gram, Linear, Map, difference_of_products};
-use crate::microsurface::Microsurface;
-use crate::ndf::Vec2;
-use crate::profile::ShapeInvariant;
-use crate::profile::ggx::Ggx;
-use crate::roughness::RoughnessMatrix;
+use crate::map::{Gram, Map, difference_of_products};
 
 /// The screen-space variance σ² of a pixel filter whose standard deviation is half a pixel, in pixels².
 ///
@@ -139,6 +134,12 @@ impl<T: Real> Covariance<T> {
         [self.c11, self.c12, self.c22].map(T::to_f64)
     }
 
+    /// The error of a Σ that cannot be used.
+    pub(super) fn refused(&self) -> Error {
+        let [xx, xy, yy] = self.entries().map(T::to_f64);
+        Error::Covariance { xx, xy, yy }
+    }
+
     /// The entries [xx, xy, yy].
     #[inline]
     #[must_use]
@@ -244,7 +245,7 @@ impl<T: Real> Add for Covariance<T> {
 /// With adj(R) the adjugate, det = (det R)² + scale (|adj(R)ᵀc₁|² + |adj(R)ᵀc₂|²) + scale² (det C)², c₁ and c₂ the
 /// rows of C: every term is positive.
 #[inline]
-fn sum([r11, r12, r22]: [f64; 3], [c11, c12, c22]: [f64; 3], scale: f64) -> Gram {
+pub(super) fn sum([r11, r12, r22]: [f64; 3], [c11, c12, c22]: [f64; 3], scale: f64) -> Gram {
     let mixed = {
         let (a, b, c) = (r22 * c11, r11 * c12 - r12 * c11, r11 * c22);
         a * a + b * b + c * c
@@ -263,138 +264,6 @@ fn sum([r11, r12, r22]: [f64; 3], [c11, c12, c22]: [f64; 3], scale: f64) -> Gram
 pub(super) fn factor<M: Map>(map: &M) -> [f64; 3] {
     let [[r11, r12], [_, r22]] = map.inverse().map(|row| row.map(Real::to_f64));
     [r11, r12, r22]
-}
-
-impl<P: ShapeInvariant, M: Map> Microsurface<P, M> {
-    /// The surface whose roughness matrix is A + 2Σ.
-    ///
-    /// For [`Beckmann`](crate::Beckmann) it is the convolution with a Gaussian of covariance Σ, exactly. For
-    /// [`Ggx`](crate::Ggx) it is the "proxy" of Kaplanyan et al. 2016: its peak is too high by up to 24 % and its tail by a
-    /// factor 1 + 2σ²/α²; [`gaussian::filtered`](crate::filter::gaussian::filtered) is nearer to the convolution.
-    ///
-    /// # Errors
-    /// [`Error::Covariance`] if Σ is not finite or makes a principal α larger than
-    /// [`alpha_range`](crate::roughness::alpha_range).
-    ///
-    /// # Accuracy
-    /// The determinant is a sum of positive terms, so a long thin Σ loses no digits. A is exact to 2ε of its entries.
-    ///
-    /// # Example
-    /// ```
-    /// use microsurface::{Beckmann, Ndf, filter::Footprint, glam::Vec2};
-    /// let surface = Beckmann::isotropic(0.01_f32)?;
-    /// // The half vector moves by 0.05 in slope from one pixel to the next.
-    /// let footprint = Footprint::<f32>::new(Vec2::new(0.05, 0.0), Vec2::new(0.0, 0.002));
-    /// let filtered = surface.filtered(footprint.covariance(0.25))?;
-    /// let [alpha, _, _] = filtered.roughness_matrix()?.principal();
-    /// assert!((alpha - (0.01_f32 * 0.01 + 2.0 * 0.25 * 0.05 * 0.05).sqrt()).abs() < 1e-6);
-    /// # Ok::<(), microsurface::Error>(())
-    /// ```
-    ///
-    /// # References
-    /// Kaplanyan, Hill, Patney and Lefohn 2016, Eqs. 13–15 and 20; Tokuyoshi 2017, Eqs. 2 and 3.
-    #[inline]
-    pub fn filtered(
-        &self,
-        covariance: Covariance<M::Scalar>,
-    ) -> Result<Microsurface<P, Linear<M::Scalar>>, Error> {
-        self.widened(covariance, 2.0)
-    }
-
-    /// The surface whose roughness matrix is A + factor·Σ.
-    #[inline]
-    pub(super) fn widened(
-        &self,
-        covariance: Covariance<M::Scalar>,
-        factor_of_sigma: f64,
-    ) -> Result<Microsurface<P, Linear<M::Scalar>>, Error> {
-        let gram = sum(factor(self.map()), covariance.factor(), factor_of_sigma);
-        match Linear::of_gram(gram) {
-            Some(map) => Ok(Microsurface::new(*self.profile(), map)),
-            None => {
-                let [xx, xy, yy] = covariance.entries().map(Real::to_f64);
-                Err(Error::Covariance { xx, xy, yy })
-            }
-        }
-    }
-
-    /// How much filtering with Σ would change P22 at most, as a share of its peak: what is lost without.
-    ///
-    /// max |P22' − P22|/P22(0) = 1 − √(det A/det(A + 2Σ)), at slope 0. Below the error that a picture may show, filtering
-    /// can be skipped; of an 8-bit picture that is about 1/256.
-    ///
-    /// # Returns
-    /// 0 for Σ = 0, growing with Σ towards 1; NaN for a Σ that is not finite.
-    ///
-    /// # Accuracy
-    /// Exact for Beckmann; for GGX filtered by a true Gaussian the peak falls by more, at most 2 times as much.
-    ///
-    /// # Example
-    /// ```
-    /// use microsurface::{Ggx, filter::Covariance};
-    /// let rough = Ggx::isotropic(0.5_f32)?;
-    /// assert!(rough.change_by_filter(Covariance::isotropic(1e-4)) < 1e-3); // not worth a filter
-    /// # Ok::<(), microsurface::Error>(())
-    /// ```
-    #[inline]
-    #[must_use]
-    pub fn change_by_filter(&self, covariance: Covariance<M::Scalar>) -> M::Scalar {
-        let r = factor(self.map());
-        let (before, after) = (r[0] * r[2], sum(r, covariance.factor(), 2.0).root);
-        // 1 − before/after without the difference of equal numbers: after² − before² is a sum.
-        let [r11, r12, r22] = r;
-        let [c11, c12, c22] = covariance.factor();
-        let (a, b, c) = (r22 * c11, r11 * c12 - r12 * c11, r11 * c22);
-        let det_c = 2.0 * (c11 * c22);
-        let gained = 2.0 * (a * a + b * b + c * c) + det_c * det_c;
-        M::Scalar::lit(gained / (after * (after + before)))
-    }
-}
-
-impl<M: Map> Microsurface<Ggx, M> {
-    /// How much filtering with Σ would change P22 at this slope, as a share of P22 there: an upper bound.
-    ///
-    /// 10 tr(A⁻¹Σ)/(1 + tᵀA⁻¹t): far from the highlight the tail is smooth on the scale of the slope itself, and a pixel
-    /// there needs no filter even where the highlight needs one.
-    ///
-    /// # Returns
-    /// 0 for Σ = 0. Above about 0.1 filter: the bound is that of the second derivative, and holds where it is small.
-    ///
-    /// # Example
-    /// ```
-    /// use microsurface::{Ggx, filter::Covariance, glam::Vec2};
-    /// let (surface, kernel) = (Ggx::isotropic(0.01_f32)?, Covariance::isotropic(1e-5));
-    /// assert!(surface.change_by_filter_at(Vec2::ZERO, kernel) > 0.1); // in the highlight
-    /// assert!(surface.change_by_filter_at(Vec2::new(0.3, 0.0), kernel) < 0.01); // beside it
-    /// # Ok::<(), microsurface::Error>(())
-    /// ```
-    #[inline]
-    #[must_use]
-    pub fn change_by_filter_at(&self, slope: Vec2<Self>, covariance: Covariance<M::Scalar>) -> M::Scalar {
-        let [r11, r12, r22] = factor(self.map());
-        let [c11, c12, c22] = covariance.factor();
-        // C R⁻¹, whose rows are the rows of C as the profile sees them.
-        let (a, c) = (c11 / r11, c22 / r22);
-        let b = (c12 - r12 * a) / r22;
-        let [x, y] = seen_by_profile(self.map(), slope);
-        M::Scalar::lit(10.0 * (a * a + b * b + c * c) / (1.0 + x * x + y * y))
-    }
-}
-
-/// det(A + 2Σ) as a shader computes it: from the entries of the sum, and not below αx²αy² of the surface itself.
-///
-/// The difference of products loses all digits for long thin kernels, which the limit hides; [`Microsurface::filtered`]
-/// adds positive terms instead. Here for comparison.
-///
-/// # References
-/// Tokuyoshi and Kaplanyan 2019, supplement, §1, "Practical implementation" (τ).
-#[inline]
-#[must_use]
-pub fn determinant_tokuyoshi2019<T: Real>(matrix: &RoughnessMatrix<T>, covariance: Covariance<T>) -> T {
-    let ([axx, axy, ayy], [sxx, sxy, syy]) = (matrix.entries(), covariance.entries());
-    let (xx, xy, yy) = (axx + T::TWO * sxx, axy + T::TWO * sxy, ayy + T::TWO * syy);
-    let least = axx * ayy - axy * axy;
-    (xx * yy - xy * xy).max(least)
 }
 
 /// Mᵀt: a slope of the surface as the profile sees it.

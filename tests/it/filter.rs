@@ -5,3 +5,19 @@ mod footprints;
 mod means;
 mod normal_map;
 mod projected;
+
+use microsurface::Real;
+use microsurface::map::Map;
+use rand::Rng;
+use rand_pcg::Pcg64Mcg;
+
+/// Uniform in [low, high).
+fn uniform(random: &mut Pcg64Mcg, low: f64, high: f64) -> f64 {
+    low + (high - low) * (random.next_u64() >> 11) as f64 * (0.5 * f64::EPSILON)
+}
+
+/// The entries of the roughness matrix of a map, and its determinant, without rounding to the scalar.
+fn matrix<M: Map>(map: &M) -> ([f64; 3], f64) {
+    let [[a, b], [_, d]] = map.inverse().map(|row| row.map(Real::to_f64));
+    ([a * a, a * b, b * b + d * d], (a * d) * (a * d))
+}

@@ -69,10 +69,10 @@ pub(super) fn mean(centre: Point, u: Point, v: Point) -> f64 {
     // centre × v with v as its parts along and across u: edges that nearly coincide then do so in distance too.
     let across_v = (dot(u, v) * across_u + area * dot(centre, u)) / (length * length);
     let around = |flux: fn(Edge) -> f64| {
-        let along_u = flux(Edge { p: a, q: b, edge: u, moment: 0.5 * area + across_u })
-            + flux(Edge { p: c, q: d, edge: [-u[0], -u[1]], moment: 0.5 * area - across_u });
-        let along_v = flux(Edge { p: b, q: c, edge: v, moment: 0.5 * area + across_v })
-            + flux(Edge { p: d, q: a, edge: [-v[0], -v[1]], moment: 0.5 * area - across_v });
+        let along_u = flux(Edge { p: a, q: b, step: u, moment: 0.5 * area + across_u })
+            + flux(Edge { p: c, q: d, step: [-u[0], -u[1]], moment: 0.5 * area - across_u });
+        let along_v = flux(Edge { p: b, q: c, step: v, moment: 0.5 * area + across_v })
+            + flux(Edge { p: d, q: a, step: [-v[0], -v[1]], moment: 0.5 * area - across_v });
         along_u + along_v
     };
     if distance2 > 1.0 { -around(Edge::flux_from_infinity) / area } else { around(Edge::flux) / area }
@@ -95,7 +95,7 @@ fn squared_distance(centre: Point, u: Point, v: Point) -> f64 {
             let middle = plus(centre, sign, side);
             let length2 = dot(edge, edge);
             let along = if length2 > 0.0 { -dot(middle, edge) / length2 } else { 0.0 };
-            let point = plus(middle, along.max(-0.5).min(0.5), edge);
+            let point = plus(middle, along.clamp(-0.5, 0.5), edge);
             nearest = nearest.min(dot(point, point));
         }
         nearest
@@ -207,26 +207,26 @@ impl Line {
     }
 }
 
-/// An edge p → q of a polygon, and p × edge: its length times its signed distance from the origin.
+/// An edge p → q of a polygon, and p × step: its length times its signed distance from the origin.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Edge {
     p: Point,
     q: Point,
-    edge: Point,
+    step: Point,
     moment: f64,
 }
 
 impl Edge {
     #[inline]
     pub(super) fn new(p: Point, q: Point) -> Self {
-        let edge = plus(q, -1.0, p);
-        Self { p, q, edge, moment: cross(p, edge) }
+        let step = plus(q, -1.0, p);
+        Self { p, q, step, moment: cross(p, step) }
     }
 
     /// The flux of t/(2π(1 + |t|²)), whose divergence is P22, out to the right of the edge.
     #[inline]
     pub(super) fn flux(self) -> f64 {
-        let length = Real::sqrt(dot(self.edge, self.edge));
+        let length = Real::sqrt(dot(self.step, self.step));
         if length == 0.0 {
             return 0.0;
         }
@@ -243,12 +243,12 @@ impl Edge {
     /// and what is left is x − atan x of both.
     #[inline]
     fn flux_from_infinity(self) -> f64 {
-        let length = Real::sqrt(dot(self.edge, self.edge));
+        let length = Real::sqrt(dot(self.step, self.step));
         let signed = self.moment / length;
         let d = signed.abs();
         let p2 = 1.0 + d * d;
         let p = Real::sqrt(p2);
-        let (begin, end) = (dot(self.p, self.edge) / length, dot(self.q, self.edge) / length);
+        let (begin, end) = (dot(self.p, self.step) / length, dot(self.q, self.step) / length);
         let product = begin * end;
         let flux = if length * p < 0.41 * (d * d + product) && d * d * length < product {
             let (near, far) = (d * d + product, p2 + product);

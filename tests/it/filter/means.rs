@@ -40,7 +40,7 @@ fn cubature(f: &dyn Fn(DVec2) -> f64, width: f64, centre: DVec2, u: DVec2, v: DV
         if seen {
             largest = largest.max(share * fine);
         }
-        if depth >= 90 || seen && share * (fine - coarse).abs() <= 1e-15 * largest.max(total) {
+        if depth >= 90 || seen && share * (fine - coarse).abs() <= 1e-14 * largest.max(total) {
             total += share * fine;
         } else {
             stack.extend(parts);
