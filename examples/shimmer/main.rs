@@ -1,60 +1,118 @@
-//! TODO
+//! Specular antialiasing on scenes whose highlights are smaller than pixels: what the filters of this crate make of one
+//! sample per pixel, measured against a reference of many.
+//!
+//! `cargo run --release --example shimmer` prints a table for each scene and material and writes pictures to
+//! `target/shimmer/` in about two minutes; `-- --quick` makes small ones of few samples.
+//!
+//! Where to look: `methods.rs` has every method in a few lines, from what a renderer knows of a pixel (`pixel.rs`) to
+//! its radiance. The scenes are `water.rs`, after Kaplanyan et al. 2016, Figs. 2 and 6, and `pebble.rs`.
 #![expect(
     clippy::cast_precision_loss,
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    reason = "pixel indices are small"
+    reason = "pixel indices are small, and colours are within 0 … 255"
 )]
 
+mod claims;
+mod effort;
+mod errors;
+mod flicker;
 #[path = "../tour/image.rs"]
 mod image;
 mod materials;
 mod methods;
 mod pebble;
+mod picture;
 mod pixel;
+mod report;
 mod rows;
 mod sampled;
 mod scene;
+mod sheet;
+mod study;
+mod timing;
 mod water;
 mod waves;
 
-use crate::image::Image;
-use crate::rows::Region;
 use std::path::Path;
-fn main() {
-    std::fs::create_dir_all("target/shimmer").unwrap();
-    let methods = methods::methods().unwrap();
-    for scene in [water::scene(), pebble::scene()] {
-        let region = Region::whole(200);
-        let t = std::time::Instant::now();
-        let reference = sampled::means(&scene, region, 0.0, 16, 0).unwrap();
-        println!("{} ref {:.1}s", scene.name, t.elapsed().as_secs_f64());
-        let px = pixel::pixels(&scene, region, 0.0);
-        let write = |name: String, values: Vec<[f32; 2]>| {
-            let pixels = values.iter().map(|&[r, d]| scene.tint * d + microsurface::glam::Vec3::splat(r - d)).collect();
-            Image { width: region.size[0] as u32, height: region.size[1] as u32, pixels }
-                .write_png(&Path::new("target/shimmer").join(name).with_extension("png"))
-                .unwrap();
-        };
-        for m in 0..2 {
-            write(format!("{}-{m}-ref", scene.name), reference.iter().map(|r| [r.radiance[m], r.diffuse]).collect());
-            for (i, method) in methods[m].iter().enumerate() {
-                let list: Vec<_> = px.iter().flatten().copied().collect();
-                let mut out = vec![0.0; list.len()];
-                (method.shade)(&list, &mut out);
-                let (mut k, mut e, mut sum, mut rs) = (0, 0.0, 0.0, 0.0);
-                let v = px.iter().zip(&reference).map(|(p, r)| match p {
-                    None => [0.0; 2],
-                    Some(p) => {
-                        let x = out[k];
-                        k += 1;
-                        if r.coverage == 1.0 { e += f64::from((x - r.radiance[m]).powi(2)); sum += x; rs += r.radiance[m]; }
-                        [x, p.diffuse]
-                    }
-                }).collect();
-                println!("{m} {} rmse {:.3} energy {:.3}", method.name, (e / k as f64).sqrt(), sum / rs);
-                write(format!("{}-{m}-{i}", scene.name), v);
+use std::process::ExitCode;
+use std::time::Instant;
+
+use crate::effort::Effort;
+use crate::study::Study;
+
+const OUTPUT: &str = "target/shimmer";
+
+const HELP: &str = "\
+Measures filters of highlights against a reference of many samples per pixel, on two scenes with two materials.
+
+Usage: cargo run --release --example shimmer -- [OPTIONS]
+
+  --quick   small pictures of few samples, for continuous integration
+  --help    this text
+
+Pictures and a table of all numbers are written to target/shimmer/. The exit code is 1 where a claim does not hold, 2 for
+a bad argument.";
+
+fn main() -> ExitCode {
+    let mut effort = Effort::FULL;
+    for argument in std::env::args().skip(1) {
+        match argument.as_str() {
+            "--quick" => effort = Effort::QUICK,
+            "--help" | "-h" => {
+                println!("{HELP}");
+                return ExitCode::SUCCESS;
+            }
+            other => {
+                eprintln!("error: unknown argument {other:?}\n\n{HELP}");
+                return ExitCode::from(2);
             }
         }
     }
+    match shimmer(effort) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => {
+            eprintln!("error: a claim does not hold");
+            ExitCode::FAILURE
+        }
+        Err(problem) => {
+            eprintln!("error: {problem}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Renders, prints and writes everything. Returns whether all claims hold.
+fn shimmer(effort: Effort) -> Result<bool, String> {
+    std::fs::create_dir_all(OUTPUT).map_err(|error| format!("cannot create {OUTPUT}: {error}"))?;
+    report::print_legend();
+    let start = Instant::now();
+    let mut studies = Vec::new();
+    for scene in [water::scene(), pebble::scene()] {
+        for study in study::study(&scene, effort).map_err(|error| error.to_string())? {
+            write_pictures(&study)?;
+            report::print(&study);
+            studies.push(study);
+        }
+    }
+    let path = Path::new(OUTPUT).join("shimmer.csv");
+    std::fs::write(&path, report::csv(&studies))
+        .map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+    println!(
+        "\n{OUTPUT}/SCENE-MATERIAL.png: the reference, number 0, and the methods by their numbers in the table;\n\
+         -highlights.png and -grazing.png: parts of them, enlarged; shimmer.csv: all numbers. {:.0} s\n",
+        start.elapsed().as_secs_f64()
+    );
+    Ok(claims::check(&studies))
+}
+
+fn write_pictures(study: &Study) -> Result<(), String> {
+    let path = |kind: &str| {
+        let name = format!("{}-{}{kind}.png", study.scene, study.material.to_lowercase());
+        Path::new(OUTPUT).join(name)
+    };
+    sheet::whole(study).write_png(&path(""))?;
+    let [highlights, grazing] = study.crops;
+    sheet::crop(study, highlights).write_png(&path("-highlights"))?;
+    sheet::crop(study, grazing).write_png(&path("-grazing"))
 }

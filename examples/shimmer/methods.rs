@@ -46,6 +46,9 @@ fn of_any<P: Profile<f32> + ShapeInvariant + 'static>(surface: Surface<P>) -> Ve
                 .covariance_of_bounds(VARIANCE_KAPLANYAN2016 as f32)
                 .clamped(0.5 * LARGEST_KERNEL as f32)
         }),
+        filtered("projected 2017, 1/4", surface, |p| {
+            p.quad_projected.covariance(VARIANCE_KAPLANYAN2016 as f32)
+        }),
     ]
 }
 
