@@ -33,8 +33,14 @@
 //! specular antialiasing", and 2021, "Stable geometric specular antialiasing with projected-space NDF filtering",
 //! JCGT 10(2).
 
+mod aligned;
 pub mod covariance;
+pub mod deferred;
 mod footprint;
+pub mod normal_map;
+pub mod polygon;
+pub mod projected;
+pub mod rectangle;
 
 pub use covariance::Covariance;
 pub use footprint::Footprint;

@@ -135,7 +135,7 @@ impl<T: Real> Covariance<T> {
 
     /// C, Σ = CᵀC.
     #[inline]
-    fn factor(&self) -> [f64; 3] {
+    pub(super) fn factor(&self) -> [f64; 3] {
         [self.c11, self.c12, self.c22].map(T::to_f64)
     }
 

@@ -100,8 +100,11 @@ impl<T: Real> Footprint<T> {
         [a.abs() + c.abs(), b.abs() + d.abs()].into()
     }
 
-    /// The covariance σ² diag(extents²) of the bounding rectangle: a biased kernel, never smaller than
-    /// [`covariance`](Self::covariance), that blurs more and depends less on the quality of the derivatives.
+    /// The covariance σ² diag(extents²) of the bounding rectangle: a biased kernel that depends less on the quality of
+    /// the derivatives.
+    ///
+    /// Its variances along the axes are never smaller than those of [`covariance`](Self::covariance), so highlights are
+    /// blurred more; along the diagonals they can be smaller, down to a half, because it has no correlation.
     ///
     /// # References
     /// Kaplanyan et al. 2016, §5.3; Tokuyoshi 2017, Listing 3.

@@ -34,6 +34,12 @@ impl<T: Real> Isotropic<T> {
         Ok(Self { alpha, alpha2: alpha * alpha, scale: scale(alpha, alpha) })
     }
 
+    /// I: the profile as it is.
+    #[inline]
+    pub(crate) fn unit() -> Self {
+        Self { alpha: T::ONE, alpha2: T::ONE, scale: scale(T::ONE, T::ONE) }
+    }
+
     /// α.
     #[inline]
     #[must_use]

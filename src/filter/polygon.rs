@@ -1,0 +1,184 @@
+//! Means of distributions over polygons of slopes, exactly: filtering over the parallelogram of a footprint.
+//!
+//! The mean of P22 over the slopes that the half vectors of a pixel cover is what a box filter over the pixel sees, to
+//! first order (Kaplanyan et al. 2016, Eq. 11). For GGX it has a closed form over every polygon. P22 of the unit GGX,
+//! 1/(π(1 + |t|²)²), is the differential form factor between a point and the plane at distance 1, t the position in
+//! that plane: so its integral over a polygon is Lambert's form factor of the polygon, a sum over its edges,
+//!
+//! ∫ P22 = 1/(2π) Σ d/√(1+d²) Θ,  Θ the angle under which an edge is seen, d its distance from the origin of slopes,
+//!
+//! and any roughness matrix or map is a linear change of the vertices. Loubet, Zeltner, Holzschuch and Jakob 2020 use
+//! the same identity for specular next-event estimation.
+//!
+//! The sum cancels: for a small polygon like its size, far from the highlight like the cube of the distance, for a thin
+//! one like its width. [`mean_p22`] therefore has four forms, of which each takes over where another would lose digits:
+//!
+//! | footprint | form | error at the switch |
+//! |---|---|---|
+//! | sides below ¼ of ℓ, the distance on which P22 varies | 5 × 5 points of Gauss's product rule | 1e-11 |
+//! | thinner than 1e-5 ℓ: a line | three line integrals, weighted by the width of the parallelogram | 3e-10 |
+//! | near the highlight | Lambert's formula | 1e-11 |
+//! | far from it | the same of a field that vanishes at infinity instead of at the origin | 1e-11 |
+//!
+//! ℓ² = 1 + (distance of the parallelogram from the highlight)² in units of α. A point is a footprint too: its mean is P22.
+//!
+//! Other profiles are integrated by the product rule on as many cells as their own ℓ asks for.
+
+mod cells;
+mod lambert;
+
+use crate::Real;
+use crate::elementary::{erf, erfc, exp_neg_square};
+use crate::filter::covariance::{factor, seen_by_profile};
+use crate::map::{Isotropic, Map};
+use crate::microsurface::Microsurface;
+use crate::profile::Profile;
+use crate::profile::beckmann::Beckmann;
+use crate::profile::ggx::Ggx;
+use crate::profile::gtr::{Gtr, Masking};
+
+/// A profile whose slopes can be averaged over parallelograms.
+pub trait MeanOverParallelogram<T: Real>: Profile<T> {
+    /// The mean of the profile's own P22 (map I) over the parallelogram `centre` ± ½ `u` ± ½ `v`.
+    fn mean_over_parallelogram(&self, centre: [f64; 2], u: [f64; 2], v: [f64; 2]) -> f64;
+
+    /// The same over the box `centre` ± `half`.
+    #[inline]
+    fn mean_over_box(&self, centre: [f64; 2], half: [f64; 2]) -> f64 {
+        self.mean_over_parallelogram(centre, [2.0 * half[0], 0.0], [0.0, 2.0 * half[1]])
+    }
+}
+
+/// The mean of P22 over the parallelogram `slope` ± ½ `dh_du` ± ½ `dh_dv`.
+///
+/// In a BRDF it takes the place of P22(slope) = D(wm) wm.z⁴.
+///
+/// # Domain
+/// Any parallelogram, degenerate ones included: a line, a point.
+///
+/// # Special cases
+/// Edges or a slope that are not finite, as at half vectors on the horizon → 0: the mean over all slopes. NaN → NaN.
+/// [`Footprint::clamped`](crate::filter::Footprint::clamped) gives finite edges.
+///
+/// # Accuracy
+/// Evaluated in f64 for both scalars. GGX: relative 5e-10 for footprints from 1e-8 to 1e3 slopes at α ≥ 1e-4, worst
+/// for lines of a width of 1e-5 α. GTR and Beckmann: the same, and the scalar's own accuracy of D. It is a few ε of f32.
+///
+/// # Example
+/// ```
+/// use microsurface::{Ggx, Ndf, filter::polygon, glam::DVec2};
+/// let surface = Ggx::isotropic(0.2_f64)?;
+/// let (u, v) = (DVec2::new(0.3, 0.1), DVec2::new(-0.1, 0.2));
+/// let mean = polygon::mean_p22(&surface, DVec2::new(0.1, 0.0), u, v);
+/// assert!(mean > 0.0 && mean < surface.p22(DVec2::ZERO));
+/// // The mean over the plane of slopes times its area is 1.
+/// let all = polygon::mean_p22(&surface, DVec2::ZERO, DVec2::new(1e4, 0.0), DVec2::new(0.0, 1e4));
+/// assert!((all * 1e8 - 1.0).abs() < 1e-8);
+/// # Ok::<(), microsurface::Error>(())
+/// ```
+///
+/// # References
+/// Kaplanyan, Hill, Patney and Lefohn 2016, Eq. 11, who leave the parallelogram of GGX open.
+#[must_use]
+pub fn mean_p22<P, M>(
+    surface: &Microsurface<P, M>,
+    slope: <M::Scalar as Real>::Vec2,
+    dh_du: <M::Scalar as Real>::Vec2,
+    dh_dv: <M::Scalar as Real>::Vec2,
+) -> M::Scalar
+where
+    P: MeanOverParallelogram<M::Scalar>,
+    M: Map,
+{
+    let [centre, u, v] = [slope, dh_du, dh_dv].map(|vector| seen_by_profile(surface.map(), vector));
+    let extent = [centre, u, v].as_flattened().iter().fold(0.0, |sum: f64, x| sum + x.abs());
+    if !extent.is_finite() {
+        return if extent.is_nan() { M::Scalar::lit(extent) } else { M::Scalar::ZERO };
+    }
+    let [r11, _, r22] = factor(surface.map());
+    M::Scalar::lit(surface.profile().mean_over_parallelogram(centre, u, v) / (r11 * r22))
+}
+
+/// ∫ P22 over the polygon of these vertices, in order: the share of facets whose slopes are within.
+///
+/// # Domain
+/// Three or more vertices of a simple polygon, in either direction; fewer enclose nothing.
+///
+/// # Returns
+/// A number in [0, 1].
+///
+/// # Accuracy
+/// Absolute 1e-16 times the number of vertices, so of small or distant polygons few digits are right:
+/// [`mean_p22`] is for those.
+///
+/// # Example
+/// ```
+/// use microsurface::{Ggx, filter::polygon, glam::DVec2};
+/// let quad = [(0.1, 0.05), (0.5, 0.1), (0.45, 0.4), (0.0, 0.3)].map(|(x, y)| DVec2::new(x, y));
+/// let share = polygon::integral_p22(&Ggx::isotropic(0.2_f64)?, &quad);
+/// assert!((share - 0.0927017183376899).abs() < 1e-15);
+/// # Ok::<(), microsurface::Error>(())
+/// ```
+///
+/// # References
+/// Lambert 1760; Loubet, Zeltner, Holzschuch and Jakob 2020, "Slope-space integrals for specular next event estimation".
+#[must_use]
+pub fn integral_p22<M: Map>(
+    surface: &Microsurface<Ggx, M>,
+    vertices: &[<M::Scalar as Real>::Vec2],
+) -> M::Scalar {
+    let seen = |i: usize| seen_by_profile(surface.map(), vertices[i]);
+    let edges =
+        (0..vertices.len()).map(|i| lambert::Edge::new(seen(i), seen((i + 1) % vertices.len())).flux());
+    M::Scalar::lit(edges.fold(0.0, |sum, flux| sum + flux).abs())
+}
+
+impl<T: Real> MeanOverParallelogram<T> for Ggx {
+    fn mean_over_parallelogram(&self, centre: [f64; 2], u: [f64; 2], v: [f64; 2]) -> f64 {
+        lambert::mean(centre, u, v)
+    }
+}
+
+impl<T: Real, K: Masking<T>> MeanOverParallelogram<T> for Gtr<T, K>
+where
+    Self: Profile<T>,
+{
+    /// (1 + r²)^{γ−2}/(α² + r²)^γ has its nearest singularities at r = ±iα.
+    fn mean_over_parallelogram(&self, centre: [f64; 2], u: [f64; 2], v: [f64; 2]) -> f64 {
+        let alpha = self.alpha().to_f64();
+        let steepness = 1.0 / Real::sqrt(1.0 + self.gamma().to_f64());
+        let scale = move |r: f64| steepness * Real::sqrt(alpha * alpha + r * r);
+        cells::mean(centre, u, v, scale, p22_of::<T, _>(*self))
+    }
+}
+
+impl<T: Real> MeanOverParallelogram<T> for Beckmann {
+    /// e^{−r²} has no singularities and a logarithmic derivative of 2r.
+    fn mean_over_parallelogram(&self, centre: [f64; 2], u: [f64; 2], v: [f64; 2]) -> f64 {
+        let scale = |r: f64| if r > 28.0 { f64::INFINITY } else { 1.0 / (1.0 + 0.5 * r) };
+        cells::mean(centre, u, v, scale, p22_of::<T, _>(*self))
+    }
+
+    fn mean_over_box(&self, centre: [f64; 2], half: [f64; 2]) -> f64 {
+        gaussian_mean(centre[0], half[0]) * gaussian_mean(centre[1], half[1])
+    }
+}
+
+/// The mean of e^{−x²}/√π within `half` of x.
+fn gaussian_mean(x: f64, half: f64) -> f64 {
+    let (x, half) = (x.abs(), half.abs());
+    if half * (1.0 + x) <= 0.25 {
+        let near = |&[node, weight]: &[f64; 2]| weight * exp_neg_square(x + 2.0 * half * node);
+        return f64::FRAC_1_SQRT_PI * lambert::GAUSS.iter().fold(0.0, |sum, point| sum + near(point));
+    }
+    let (begin, end) = (x - half, x + half);
+    // Whichever of both does not cancel.
+    let twice = if begin > 0.0 { erfc(begin) - erfc(end) } else { erf(end) - erf(begin) };
+    twice / (4.0 * half)
+}
+
+/// P22 of a profile.
+fn p22_of<T: Real, P: Profile<T>>(profile: P) -> impl Fn([f64; 2]) -> f64 {
+    let unit = Isotropic::unit();
+    move |[x, y]| profile.d(&unit, [T::lit(-x), T::lit(-y), T::ONE], T::ONE).to_f64()
+}

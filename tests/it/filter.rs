@@ -1,0 +1,6 @@
+//! Filters of distributions.
+
+mod deferred;
+mod means;
+mod normal_map;
+mod projected;

@@ -1,0 +1,262 @@
+//! Means over parallelograms and rectangles against adaptive cubature.
+
+use microsurface::filter::polygon::{self, MeanOverParallelogram};
+use microsurface::filter::rectangle;
+use microsurface::glam::DVec2;
+use microsurface::map::Map;
+use microsurface::{Beckmann, Ggx, Gtr, Microsurface, Ndf, RoughnessMatrix};
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64;
+
+use crate::quadrature::gauss_legendre;
+
+/// The mean of f over centre ± ½u ± ½v by cubature that halves a cell until it agrees with its parts.
+fn cubature(f: &dyn Fn(DVec2) -> f64, width: f64, centre: DVec2, u: DVec2, v: DVec2) -> f64 {
+    let rule = gauss_legendre(9);
+    let cell = |centre: DVec2, u: DVec2, v: DVec2| -> f64 {
+        let mut sum = 0.0;
+        for &[x, wx] in &rule {
+            for &[y, wy] in &rule {
+                sum += 0.25 * wx * wy * f(centre + 0.5 * x * u + 0.5 * y * v);
+            }
+        }
+        sum
+    };
+    // The total so far decides what matters.
+    let mut total = 0.0;
+    let mut stack = vec![(centre, u, v, 1.0, cell(centre, u, v), 0)];
+    let mut largest: f64 = 0.0;
+    while let Some((centre, u, v, share, coarse, depth)) = stack.pop() {
+        let (longer, shorter) = if u.length() >= v.length() { (u, v) } else { (v, u) };
+        let half = 0.5 * longer;
+        let parts = [-0.25, 0.25].map(|x| {
+            let centre = centre + x * longer;
+            (centre, half, shorter, 0.5 * share, cell(centre, half, shorter), depth + 1)
+        });
+        let fine = 0.5 * (parts[0].4 + parts[1].4);
+        // A cell much wider than its distance from the highlight may have overlooked it.
+        let nearest = (centre.length() - 0.5 * (u.length() + v.length())).max(0.0);
+        let seen = longer.length() < 4.0 * width.hypot(nearest);
+        if seen {
+            largest = largest.max(share * fine);
+        }
+        if depth >= 90 || seen && share * (fine - coarse).abs() <= 1e-15 * largest.max(total) {
+            total += share * fine;
+        } else {
+            stack.extend(parts);
+        }
+    }
+    total
+}
+
+/// The largest relative error of a mean, and where.
+#[derive(Debug, Default)]
+struct Worst {
+    error: f64,
+    at: String,
+}
+
+impl Worst {
+    fn see(&mut self, mean: f64, exact: f64, at: impl FnOnce() -> String) {
+        let error = (mean / exact - 1.0).abs();
+        assert!(!error.is_nan(), "{mean:e} instead of {exact:e}: {}", at());
+        if error > self.error {
+            (self.error, self.at) = (error, at());
+        }
+    }
+
+    /// Within the bound, and not so far within that it is a lie.
+    fn assert_within(&self, bound: f64) {
+        assert!(self.error <= bound && self.error >= 0.3 * bound, "{bound:e}: {self:?}");
+    }
+}
+
+/// A vector of this length in any direction.
+fn turned(rng: &mut Pcg64, length: f64) -> DVec2 {
+    DVec2::from_angle(rng.random_range(0.0..core::f64::consts::TAU)) * length
+}
+
+fn between(rng: &mut Pcg64, from: f64, to: f64) -> f64 {
+    (rng.random_range(from.ln()..to.ln())).exp()
+}
+
+/// Of all shapes and sizes, in units of the width: the two edges and the slope.
+fn footprint(rng: &mut Pcg64, kind: usize) -> [DVec2; 3] {
+    let size = between(rng, 1e-8, 1e5);
+    let slope = between(rng, 1e-3, 1e4);
+    let slope = turned(rng, slope);
+    let u = turned(rng, size);
+    let v = match kind {
+        // As long, much shorter, a line with and without a width, next to a line.
+        0 => {
+            let v = between(rng, 0.1, 1.0) * size;
+            turned(rng, v)
+        }
+        1 => {
+            let v = between(rng, 1e-9, 1.0) * size;
+            turned(rng, v)
+        }
+        2 => DVec2::ZERO,
+        3 => rng.random_range(-1.0..1.0) * u,
+        _ => rng.random_range(-1.0..1.0) * u + between(rng, 1e-12, 1e-2) * u.perp(),
+    };
+    // Half of them beside the highlight or across it.
+    if rng.random_bool(0.5) {
+        let slope = rng.random_range(-0.6..0.6) * u + rng.random_range(-0.6..0.6) * v;
+        let beside = between(rng, 1e-3, 10.0);
+        return [slope + turned(rng, beside), u, v];
+    }
+    [slope, u, v]
+}
+
+/// The number of footprints: `MICROSURFACE_MEANS=100000` for more.
+fn count(few: usize) -> usize {
+    std::env::var("MICROSURFACE_MEANS").map_or(few, |n| n.parse().unwrap())
+}
+
+/// Means over random footprints of a surface of width 1, against cubature.
+fn worst_of<P: MeanOverParallelogram<f64>, M: Map<Scalar = f64>>(
+    surface: &Microsurface<P, M>,
+    width: f64,
+    kinds: &[usize],
+    few: usize,
+    reach: impl Fn([DVec2; 3]) -> bool,
+) -> Worst
+where
+    Microsurface<P, M>: Ndf<Scalar = f64>,
+{
+    let mut rng = Pcg64::seed_from_u64(5);
+    let mut worst = Worst::default();
+    for i in 0..count(few) {
+        let footprint = footprint(&mut rng, kinds[i % kinds.len()]);
+        if reach(footprint) {
+            let [slope, u, v] = footprint;
+            let exact = cubature(&|t| surface.p22(t), width, slope, u, v);
+            worst.see(polygon::mean_p22(surface, slope, u, v), exact, || format!("{slope} {u} {v}"));
+        }
+    }
+    worst
+}
+
+#[test]
+fn ggx_over_parallelograms_of_all_sizes() {
+    let surface = Ggx::isotropic(1.0).unwrap();
+    // Parallelograms and thin ones; lines; thin ones whose edges have nearly one direction.
+    worst_of(&surface, 1.0, &[0, 1], 600, |_| true).assert_within(2e-11);
+    worst_of(&surface, 1.0, &[2, 3], 400, |_| true).assert_within(3e-11);
+    worst_of(&surface, 1.0, &[4], 600, |_| true).assert_within(5e-11);
+}
+
+#[test]
+fn gtr_and_beckmann_over_parallelograms() {
+    for gamma in [0.4, 1.5, 2.0, 3.3, 9.0] {
+        for alpha in [0.05, 0.7] {
+            let surface = Gtr::isotropic(alpha, gamma).unwrap();
+            // As a heavier tail than GGX asks for more of the cubature.
+            let worst = worst_of(&surface, alpha, &[0, 1, 2, 3, 4], 40, |[_, u, _]| u.length() < 1e3);
+            println!("{gamma} {alpha} {worst:?}");
+            assert!(worst.error < 1e-9, "{gamma} {alpha}: {worst:?}");
+        }
+    }
+    let surface = Beckmann::isotropic(1.0).unwrap();
+    let near = |[slope, u, v]: [DVec2; 3]| slope.length() - 0.5 * (u.length() + v.length()) < 8.0;
+    let worst = worst_of(&surface, 0.3, &[0, 1, 2, 3, 4], 200, near);
+    println!("{worst:?}");
+    assert!(worst.error < 1e-9, "{worst:?}");
+}
+
+#[test]
+fn maps_carry_parallelograms_to_parallelograms() {
+    let mut rng = Pcg64::seed_from_u64(6);
+    let matrix = RoughnessMatrix::rotated(0.02, 0.6, 0.7).unwrap();
+    let surface = Ggx::from_roughness_matrix(matrix);
+    let mut worst = Worst::default();
+    for i in 0..200 {
+        let [slope, u, v] = footprint(&mut rng, i % 5).map(|t| 0.02 * t);
+        let exact = cubature(&|t| surface.p22(t), 0.02, slope, u, v);
+        worst.see(polygon::mean_p22(&surface, slope, u, v), exact, || format!("{slope} {u} {v}"));
+    }
+    println!("{worst:?}");
+    worst.assert_within(2e-11);
+}
+
+#[test]
+fn rectangles_are_parallelograms_along_the_axes() {
+    let mut rng = Pcg64::seed_from_u64(7);
+    let (ggx, beckmann) = (Ggx::anisotropic(0.5, 2.0).unwrap(), Beckmann::anisotropic(0.5, 2.0).unwrap());
+    let tilted = Ggx::from_roughness_matrix(RoughnessMatrix::rotated(0.5, 2.0, 0.3).unwrap());
+    let mut worst: [Worst; 3] = Default::default();
+    for _ in 0..300 {
+        let half = DVec2::new(between(&mut rng, 1e-8, 1e3), between(&mut rng, 1e-8, 1e3));
+        let distance = between(&mut rng, 1e-3, 6.0);
+        let slope = turned(&mut rng, distance);
+        let (u, v) = (DVec2::new(2.0 * half.x, 0.0), DVec2::new(0.0, 2.0 * half.y));
+        let exact = |surface: &dyn Fn(DVec2) -> f64| cubature(surface, 0.2, slope, u, v);
+        let at = || format!("{slope} {half}");
+        worst[0].see(rectangle::mean_p22(&ggx, slope, half), exact(&|t| ggx.p22(t)), at);
+        worst[1].see(rectangle::mean_p22(&tilted, slope, half), exact(&|t| tilted.p22(t)), at);
+        worst[2].see(rectangle::mean_p22(&beckmann, slope, half), exact(&|t| beckmann.p22(t)), at);
+    }
+    println!("{worst:?}");
+    worst[0].assert_within(2e-11);
+    worst[1].assert_within(2e-11);
+    worst[2].assert_within(1e-12);
+}
+
+#[test]
+fn a_point_a_line_and_everything() {
+    let surface = Ggx::anisotropic(0.1_f64, 0.3).unwrap();
+    let (slope, zero) = (DVec2::new(0.2, -0.1), DVec2::ZERO);
+    assert!((polygon::mean_p22(&surface, slope, zero, zero) / surface.p22(slope) - 1.0).abs() < 1e-15);
+    assert!((rectangle::mean_p22(&surface, slope, zero) / surface.p22(slope) - 1.0).abs() < 1e-15);
+    for (width, share) in [(1e3, 1e-6), (1e6, 1e-12)] {
+        let (u, v) = (DVec2::new(width, 0.0), DVec2::new(0.3 * width, width));
+        let all = polygon::mean_p22(&surface, slope, u, v) * width * width;
+        assert!((all - 1.0).abs() < share, "{all}");
+    }
+    // Not finite.
+    let infinite = DVec2::new(f64::INFINITY, 0.0);
+    assert_eq!(polygon::mean_p22(&surface, slope, infinite, zero), 0.0);
+    assert_eq!(polygon::mean_p22(&surface, infinite, zero, zero), 0.0);
+    assert_eq!(rectangle::mean_p22(&surface, slope, infinite), 0.0);
+    assert!(polygon::mean_p22(&surface, DVec2::NAN, zero, zero).is_nan());
+    assert!(polygon::mean_p22(&surface, slope, DVec2::NAN, zero).is_nan());
+}
+
+/// f32 surfaces are averaged in f64, of their own rounded numbers.
+#[test]
+fn f32_is_f64_rounded() {
+    let mut rng = Pcg64::seed_from_u64(8);
+    for i in 0..2000 {
+        let [slope, u, v] = footprint(&mut rng, i % 5).map(|t| (0.01 * t).as_vec2());
+        let (single, double) =
+            (Ggx::isotropic(0.01_f32).unwrap(), Ggx::isotropic(f64::from(0.01_f32)).unwrap());
+        let mean = polygon::mean_p22(&single, slope, u, v);
+        let exact = polygon::mean_p22(&double, slope.as_dvec2(), u.as_dvec2(), v.as_dvec2());
+        assert!((f64::from(mean) - exact).abs() <= 0.51 * f64::from(f32::EPSILON) * exact, "{slope} {u} {v}");
+    }
+}
+
+#[test]
+fn shares_of_polygons_add_up() {
+    let mut rng = Pcg64::seed_from_u64(9);
+    let surface = Ggx::from_roughness_matrix(RoughnessMatrix::rotated(0.1, 0.5, 0.4).unwrap());
+    for _ in 0..100 {
+        let vertices: [DVec2; 4] = core::array::from_fn(|i| {
+            DVec2::from_angle(core::f64::consts::FRAC_PI_2 * i as f64) * between(&mut rng, 0.01, 3.0)
+        });
+        let [a, b, c, d] = vertices;
+        let whole: f64 = polygon::integral_p22(&surface, &vertices);
+        let parts = polygon::integral_p22(&surface, &[a, b, c]) + polygon::integral_p22(&surface, &[d, c, a]);
+        // The quadrilateral about the origin may be concave at a or c, not beyond the diagonal.
+        let concave = (b - a).perp_dot(c - a) * (c - a).perp_dot(d - a) < 0.0;
+        if !concave {
+            assert!((whole - parts).abs() < 1e-15, "{whole} {parts}");
+        }
+        assert!(whole > 0.0 && whole < 1.0);
+    }
+    assert_eq!(polygon::integral_p22(&surface, &[]), 0.0);
+    assert_eq!(polygon::integral_p22(&surface, &[DVec2::X]), 0.0);
+    let nothing: f64 = polygon::integral_p22(&surface, &[DVec2::X, DVec2::Y]);
+    assert!(nothing.abs() < 1e-16);
+}
