@@ -37,9 +37,12 @@ mod aligned;
 pub mod covariance;
 pub mod deferred;
 mod footprint;
+pub mod jacobian;
 pub mod normal_map;
 pub mod polygon;
 pub mod projected;
+pub mod quad;
+pub mod ray;
 pub mod rectangle;
 
 pub use covariance::Covariance;

@@ -2,7 +2,8 @@
 //! crate and the tour's path tracer.
 //!
 //! `cargo run --release --example gallery` writes them to `target/gallery/` in less than a minute and prints what to
-//! look for, and a plot of what sets a transform apart from another width; `-- --quick` makes small ones of few samples.
+//! look for, and two plots: what sets a transform apart from another width, and how much slopes add to the errors of a
+//! filter's derivatives. `-- --quick` makes small pictures of few samples.
 //!
 //! Where to look: `plate.rs`, `bodies.rs` and `vases.rs` are a figure each, and their covers are all that a renderer
 //! has to do at a hit: `surface.transformed(m)`.
@@ -13,11 +14,13 @@
     reason = "pixel and cell indices are small, and colours are within 0 … 255"
 )]
 
+mod amplification;
 mod anisotropy;
 mod bodies;
 mod inset;
 mod mesh;
 mod plate;
+mod plot;
 mod rubber;
 mod scene;
 mod sheet;
@@ -117,9 +120,14 @@ fn gallery(effort: Effort) -> Result<(), String> {
             ));
         }
     }
-    let path = Path::new(OUTPUT).join("anisotropy.svg");
-    let plot = anisotropy::plot().map_err(|error| error.to_string())?;
-    std::fs::write(&path, plot).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
-    println!("{}:\n{}", path.display(), anisotropy::LOOK_FOR);
+    let anisotropy = anisotropy::plot().map_err(|error| error.to_string())?;
+    for (name, plot, look_for) in [
+        ("anisotropy", anisotropy, anisotropy::LOOK_FOR),
+        ("error_amplification", amplification::plot(), amplification::LOOK_FOR),
+    ] {
+        let path = Path::new(OUTPUT).join(name).with_extension("svg");
+        std::fs::write(&path, plot).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+        println!("{}:\n{look_for}\n", path.display());
+    }
     Ok(())
 }

@@ -91,9 +91,11 @@ where
     M: Map,
 {
     let [centre, u, v] = [slope, dh_du, dh_dv].map(|vector| seen_by_profile(surface.map(), vector));
-    let extent = [centre, u, v].as_flattened().iter().fold(0.0, |sum: f64, x| sum + x.abs());
-    if !extent.is_finite() {
-        return if extent.is_nan() { M::Scalar::lit(extent) } else { M::Scalar::ZERO };
+    if ![centre, u, v].as_flattened().iter().all(|x| x.is_finite()) {
+        // Before the map, which makes NaN of two infinities.
+        let given: [[M::Scalar; 2]; 3] = [slope.into(), dh_du.into(), dh_dv.into()];
+        let sum = given.as_flattened().iter().fold(M::Scalar::ZERO, |sum, x| sum + x.abs());
+        return if sum.is_finite() || sum == M::Scalar::INFINITY { M::Scalar::ZERO } else { sum };
     }
     let [r11, _, r22] = factor(surface.map());
     M::Scalar::lit(surface.profile().mean_over_parallelogram(centre, u, v) / (r11 * r22))
