@@ -44,7 +44,7 @@ pub(crate) fn errors(
         toned += (tone(x) - tone(r)).powi(2);
         sum += x;
         reference_sum += r;
-        if pixel.h_z.abs() < GRAZING {
+        if pixel.m.z.abs() < GRAZING {
             grazing += (x - r).abs();
             reference_grazing += r;
         }

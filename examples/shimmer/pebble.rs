@@ -2,14 +2,14 @@
 
 use microsurface::glam::{DMat3, DVec2, DVec3, Vec3};
 
-use crate::scene::{Camera, Hit, Ray, Scene, Shape, normal_of_level};
+use crate::scene::{Camera, Hit, Ray, Scene, Shape};
 use crate::waves::Waves;
 
-const WAVES: u32 = 10;
+const WAVES: usize = 10;
 
 /// The level 0 of |p| − 1 − waves(p).
 struct Pebble {
-    waves: Waves,
+    waves: Waves<WAVES>,
     /// Of the sphere that holds it.
     radius: f64,
     /// Along a ray the second derivative is no less than minus this: |p| is convex.
@@ -17,17 +17,9 @@ struct Pebble {
 }
 
 impl Pebble {
-    fn new(waves: Waves) -> Self {
+    fn new(waves: Waves<WAVES>) -> Self {
         let [height, curvature] = waves.bounds();
         Self { waves, radius: 1.0 + height, curvature }
-    }
-
-    fn derivatives(&self, p: DVec3) -> (DVec3, DMat3) {
-        let (slope, curvature) = self.waves.derivatives(p);
-        let inv_length = p.length().recip();
-        let n = p * inv_length;
-        let sphere = (DMat3::IDENTITY - DMat3::from_cols(n * n.x, n * n.y, n * n.z)) * inv_length;
-        (n - slope, sphere - curvature)
     }
 }
 
@@ -41,38 +33,47 @@ impl Shape for Pebble {
         }
         let half = half2.sqrt();
         let mut t = middle - half;
-        let position = loop {
+        loop {
             let p = ray.origin + ray.direction * t;
             let (wave, slope) = self.waves.value_and_gradient(p);
             let height = p.length() - 1.0 - wave;
             if height < 1e-9 {
-                break p;
+                let gradient = p.normalize() - slope;
+                return Some(Hit { position: p, geometric_normal: gradient.normalize(), gradient });
             }
             // Up to where the parabola of the least second derivative is 0: never past the surface, and as fast as
             // Newton's method near it.
             let descent = slope.dot(ray.direction) - p.dot(ray.direction) / p.length();
             let root = (descent * descent + 2.0 * self.curvature * height).sqrt();
-            t += if descent > 0.0 { 2.0 * height / (descent + root) } else { (root - descent) / self.curvature };
+            t += if descent > 0.0 {
+                2.0 * height / (descent + root)
+            } else {
+                (root - descent) / self.curvature
+            };
             if t > middle + half {
                 return None;
             }
-        };
-        let (gradient, hessian) = self.derivatives(position);
-        let (normal, normal_derivative) = normal_of_level(gradient, hessian);
-        Some(Hit { position, geometric_normal: normal, normal, normal_derivative })
+        }
+    }
+
+    fn hessian(&self, p: DVec3) -> DMat3 {
+        let inv_length = p.length().recip();
+        let n = p * inv_length;
+        let sphere = (DMat3::IDENTITY - DMat3::from_cols(n * n.x, n * n.y, n * n.z)) * inv_length;
+        sphere - self.waves.hessian(p)
     }
 }
 
 pub(crate) fn scene() -> Scene {
-    let wave_vector = |i: u32| {
+    let wave_vector = |i: f64| {
         // Directions spread evenly over the sphere, by the golden angle.
-        let z = 1.0 - (2.0 * f64::from(i) + 1.0) / f64::from(WAVES);
-        let along = DVec2::from_angle(2.399_963_229_728_653 * f64::from(i)) * (1.0 - z * z).sqrt();
-        along.extend(z) * (10.0 + 3.0 * f64::from(i))
+        let z = 1.0 - (2.0 * i + 1.0) / WAVES as f64;
+        let along = DVec2::from_angle(2.399_963_229_728_653 * i) * (1.0 - z * z).sqrt();
+        along.extend(z) * (10.0 + 3.0 * i)
     };
     Scene {
         name: "pebble",
-        shape: Box::new(Pebble::new(Waves::of_steepness(0.16, (0..WAVES).map(wave_vector)))),
+        shape: Box::new(Pebble::new(Waves::of_steepness(0.16, wave_vector))),
         camera: Camera {
             eye: DVec3::new(0.0, -6.0, 0.8),
             target: DVec3::ZERO,
@@ -85,6 +86,6 @@ pub(crate) fn scene() -> Scene {
         ambient: 0.2,
         tangent: DVec3::new(0.36, 0.48, 0.8),
         tint: Vec3::new(1.5, 0.9, 0.4),
-        crops: [[0.45, 0.25], [0.2, 0.5]],
+        crops: [[0.45, 0.25], [0.56, 0.3]],
     }
 }

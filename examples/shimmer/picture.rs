@@ -43,7 +43,8 @@ impl Picture {
 
     /// For looking at: white highlights on the tint.
     pub(crate) fn image(&self, scene: &Scene, region: Region) -> Image {
-        let colour = |(&radiance, &diffuse): (&f32, &f32)| Vec3::splat(radiance - diffuse) + scene.tint * diffuse;
+        let colour =
+            |(&radiance, &diffuse): (&f32, &f32)| Vec3::splat(radiance - diffuse) + scene.tint * diffuse;
         Image {
             width: region.size[0] as u32,
             height: region.size[1] as u32,

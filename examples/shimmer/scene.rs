@@ -10,28 +10,21 @@ pub(crate) struct Ray {
     pub(crate) direction: DVec3,
 }
 
-/// A place on a shape.
+/// A place on a shape, whose shading normals are those of the levels of a function.
 #[derive(Clone, Copy)]
 pub(crate) struct Hit {
     pub(crate) position: DVec3,
-    /// Of the surface, where rays meet it.
+    /// Of the surface that rays meet.
     pub(crate) geometric_normal: DVec3,
-    /// Of the shading.
-    pub(crate) normal: DVec3,
-    /// How the shading normal changes with the place: dn = matrix · dp.
-    pub(crate) normal_derivative: DMat3,
+    /// Of the function.
+    pub(crate) gradient: DVec3,
 }
 
 pub(crate) trait Shape: Sync {
     fn hit(&self, ray: &Ray) -> Option<Hit>;
-}
 
-/// The unit normal ∇f/|∇f| of a level of f, and its derivative.
-pub(crate) fn normal_of_level(gradient: DVec3, hessian: DMat3) -> (DVec3, DMat3) {
-    let inv_length = gradient.length().recip();
-    let n = gradient * inv_length;
-    let across = DMat3::IDENTITY - DMat3::from_cols(n * n.x, n * n.y, n * n.z);
-    (n, across * hessian * inv_length)
+    /// The second derivatives of the function.
+    fn hessian(&self, position: DVec3) -> DMat3;
 }
 
 /// A pinhole camera.
@@ -82,7 +75,15 @@ impl Scene {
     }
 
     pub(crate) fn frame(&self, hit: &Hit) -> Frame<f64> {
-        Frame::from_normal_and_tangent(hit.normal, self.tangent)
+        Frame::from_normal_and_tangent(hit.gradient.normalize(), self.tangent)
+    }
+
+    /// How the shading normal ∇f/|∇f| changes with the place: dn = matrix · dp.
+    pub(crate) fn normal_derivative(&self, hit: &Hit) -> DMat3 {
+        let inv_length = hit.gradient.length().recip();
+        let n = hit.gradient * inv_length;
+        let across = DMat3::IDENTITY - DMat3::from_cols(n * n.x, n * n.y, n * n.z);
+        across * self.shape.hessian(hit.position) * inv_length
     }
 
     /// The light that arrives at a place, unshadowed, and the directions there.

@@ -17,7 +17,10 @@ const DIGITS: [u16; 10] =
 
 /// The reference, number 0, and the methods with the numbers of the table.
 pub(crate) fn whole(study: &Study) -> Image {
-    joined(images(study).map(|image| enlarged(image, [0, 0], [image.width, image.height].map(|n| n as usize), 1)))
+    joined(
+        images(study)
+            .map(|image| enlarged(image, [0, 0], [image.width, image.height].map(|n| n as usize), 1)),
+    )
 }
 
 /// The same of a part, enlarged.
@@ -39,13 +42,13 @@ fn enlarged(image: &Image, corner: [usize; 2], size: [usize; 2], zoom: usize) ->
     Image { width: width as u32, height: height as u32, pixels }
 }
 
-/// All pictures as one, with light lines between them and their numbers in their corners.
+/// All pictures as one, with lines between them and their numbers in their corners.
 fn joined(images: impl Iterator<Item = Image>) -> Image {
     let images: Vec<Image> = images.collect();
     let size = [images[0].width as usize, images[0].height as usize];
     let whole = |count: usize, size: usize| count * (size + GAP) - GAP;
     let total = [whole(COLUMNS, size[0]), whole(images.len().div_ceil(COLUMNS), size[1])];
-    let mut pixels = vec![Vec3::splat(0.3); total[0] * total[1]];
+    let mut pixels = vec![Vec3::splat(0.05); total[0] * total[1]];
     for (i, mut image) in images.into_iter().enumerate() {
         number(&mut image, i);
         let [x, y] = [(i % COLUMNS) * (size[0] + GAP), (i / COLUMNS) * (size[1] + GAP)];

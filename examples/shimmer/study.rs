@@ -11,13 +11,12 @@ use crate::methods::methods;
 use crate::picture::{Picture, Reference};
 use crate::pixel::pixels;
 use crate::rows::Region;
-use crate::sampled::means;
+use crate::sampled::{Mean, means};
 use crate::scene::Scene;
 use crate::timing::nanoseconds;
 
-/// Samples per pixel of supersampling: 4 × 4.
-const FEW: u32 = 4;
-pub(crate) const SUPERSAMPLED: &str = "16 samples, unfiltered";
+/// Of the pictures, in pixels: a multiple of 20, so that pictures and their quarters are of whole 2×2 quads.
+const HEIGHT: usize = 200;
 
 /// One line of a table.
 pub(crate) struct Row {
@@ -46,9 +45,9 @@ pub(crate) struct Study {
 
 /// Renders the scene, and its camera's move, with each material.
 pub(crate) fn study(scene: &Scene, effort: Effort) -> Result<[Study; 2], Error> {
-    let region = Region::whole(effort.height);
+    let region = Region::whole(HEIGHT);
     let reference = Reference::new(scene, region, 0.0, effort.strata)?;
-    let supersampled = means(scene, region, 0.0, FEW, 0)?;
+    let supersampled = supersampled(scene, region, 0.0, effort)?;
     let inputs = pixels(scene, region, 0.0);
     let flickers = flickers(scene, effort)?;
     let mut flickers = flickers.into_iter();
@@ -56,7 +55,9 @@ pub(crate) fn study(scene: &Scene, effort: Effort) -> Result<[Study; 2], Error> 
     let methods = methods()?;
     Ok([0, 1].map(|material| {
         let flicker = flickers.next().unwrap_or_default();
-        let pictures = core::iter::once((SUPERSAMPLED, Picture::of_means(&supersampled, material), None))
+        let pictures = supersampled
+            .iter()
+            .map(|(name, means)| (*name, Picture::of_means(means, material), None))
             .chain(methods[material].iter().map(|method| {
                 let time = nanoseconds(method, &inputs, effort.repetitions);
                 (method.name, Picture::shaded(&inputs, method), Some(time))
@@ -69,7 +70,7 @@ pub(crate) fn study(scene: &Scene, effort: Effort) -> Result<[Study; 2], Error> 
             image: picture.image(scene, region),
         };
         let hit = inputs.iter().flatten();
-        let grazing = hit.clone().filter(|pixel| pixel.h_z.abs() < crate::errors::GRAZING).count();
+        let grazing = hit.clone().filter(|pixel| pixel.m.z.abs() < crate::errors::GRAZING).count();
         let squares = |pixel| reference.standard_error(pixel, material).powi(2);
         Study {
             scene: scene.name,
@@ -78,28 +79,40 @@ pub(crate) fn study(scene: &Scene, effort: Effort) -> Result<[Study; 2], Error> 
             reference: Picture::of_means(&reference.mean, material).image(scene, region),
             noise: ((0..region.pixels()).map(squares).sum::<f64>() / hit.clone().count() as f64).sqrt(),
             grazing: grazing as f64 / hit.count() as f64,
-            crops: scene.crops.map(|corner| Region::quarter(effort.height, corner)),
+            crops: scene.crops.map(|corner| Region::quarter(HEIGHT, corner)),
         }
     }))
 }
 
+/// Means of the few samples that a filter competes with, unfiltered.
+fn supersampled(
+    scene: &Scene,
+    region: Region,
+    frame: f64,
+    effort: Effort,
+) -> Result<Vec<(&'static str, Vec<Mean>)>, Error> {
+    let sampled = |&(strata, name)| Ok((name, means(scene, region, frame, strata, 0)?));
+    effort.supersampled.iter().map(sampled).collect()
+}
+
 /// The flicker of each row's highlights with each material.
 fn flickers(scene: &Scene, effort: Effort) -> Result<[Vec<Flicker>; 2], Error> {
-    let region = Region::quarter(effort.height, scene.crops[0]);
+    let region = Region::quarter(HEIGHT, scene.crops[0]);
     let methods = methods()?;
     let mut flickers = [0, 1].map(|material: usize| {
-        let rows = methods[material].len() + 1;
+        let rows = methods[material].len() + effort.supersampled.len();
         (0..rows).map(|_| Flicker::default()).collect::<Vec<_>>()
     });
     for frame in 0..effort.frames {
         let frame = f64::from(frame);
         let reference = Reference::new(scene, region, frame, effort.strata)?;
-        let supersampled = means(scene, region, frame, FEW, 0)?;
+        let supersampled = supersampled(scene, region, frame, effort)?;
         let inputs = pixels(scene, region, frame);
         for (material, flickers) in flickers.iter_mut().enumerate() {
             let right = Picture::of_means(&reference.mean, material).radiance;
             let shaded = methods[material].iter().map(|method| Picture::shaded(&inputs, method));
-            let pictures = core::iter::once(Picture::of_means(&supersampled, material)).chain(shaded);
+            let sampled = supersampled.iter().map(|(_, means)| Picture::of_means(means, material));
+            let pictures = sampled.chain(shaded);
             for (flicker, picture) in flickers.iter_mut().zip(pictures) {
                 flicker.add(&picture.radiance, &right);
             }

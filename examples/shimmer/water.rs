@@ -1,16 +1,16 @@
 //! A tile of wavy water: flat, with the normals of waves.
 
-use microsurface::glam::{DVec2, DVec3, Vec3};
+use microsurface::glam::{DMat3, DVec2, DVec3, Vec3};
 
-use crate::scene::{Camera, Hit, Ray, Scene, Shape, normal_of_level};
+use crate::scene::{Camera, Hit, Ray, Scene, Shape};
 use crate::waves::Waves;
 
 /// Half the width of the tile.
 const HALF_WIDTH: f64 = 6.0;
 /// The waves are between 0.4 and 2 units long.
-const WAVES: u32 = 16;
+const WAVES: usize = 16;
 
-struct Water(Waves);
+struct Water(Waves<WAVES>);
 
 impl Shape for Water {
     fn hit(&self, ray: &Ray) -> Option<Hit> {
@@ -20,21 +20,24 @@ impl Shape for Water {
             return None;
         }
         // The level of z − h(x, y).
-        let (slope, curvature) = self.0.derivatives(position);
-        let (normal, normal_derivative) = normal_of_level(DVec3::Z - slope, -curvature);
-        Some(Hit { position, geometric_normal: DVec3::Z, normal, normal_derivative })
+        let (_, slope) = self.0.value_and_gradient(position);
+        Some(Hit { position, geometric_normal: DVec3::Z, gradient: DVec3::Z - slope })
+    }
+
+    fn hessian(&self, position: DVec3) -> DMat3 {
+        -self.0.hessian(position)
     }
 }
 
 pub(crate) fn scene() -> Scene {
-    let wave_vector = |i: u32| {
-        let along = DVec2::from_angle(2.399_963_229_728_653 * f64::from(i));
-        let length = 0.4 + 1.6 * f64::from(i) / f64::from(WAVES - 1);
+    let wave_vector = |i: f64| {
+        let along = DVec2::from_angle(2.399_963_229_728_653 * i);
+        let length = 0.4 + 1.6 * i / (WAVES - 1) as f64;
         (along * (core::f64::consts::TAU / length)).extend(0.0)
     };
     Scene {
         name: "water",
-        shape: Box::new(Water(Waves::of_steepness(0.08, (0..WAVES).map(wave_vector)))),
+        shape: Box::new(Water(Waves::of_steepness(0.08, wave_vector))),
         camera: Camera {
             eye: DVec3::new(0.0, -9.0, 2.8),
             target: DVec3::new(0.0, -1.0, 0.0),
