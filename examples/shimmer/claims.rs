@@ -10,8 +10,9 @@ use crate::study::{Row, Study};
 /// Prints each claim with its numbers. Returns whether all hold.
 pub(crate) fn check(studies: &[Study]) -> bool {
     let mut claims = Claims { all_hold: true };
+    println!("Claims:");
     for study in studies {
-        println!("Claims about the {} of {}:", study.scene, study.material);
+        println!("{} of {}:", study.scene, study.material);
         claims.of_study(study);
     }
     claims.all_hold

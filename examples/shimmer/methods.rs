@@ -14,15 +14,17 @@ use microsurface::{AxisAligned, Beckmann, Error, Ggx, Isotropic, Microsurface, N
 use crate::materials::{ALPHA, FRESNEL, Surface};
 use crate::pixel::{Pixel, Steps};
 
+/// Writes the radiance of each pixel.
+type Shade = Box<dyn Fn(&[Pixel], &mut [f32])>;
+
 /// A way to shade pixels, all in one loop.
 pub(crate) struct Method {
     pub(crate) name: &'static str,
-    /// Radiance of each pixel.
-    pub(crate) shade: Box<dyn Fn(&[Pixel], &mut [f32])>,
+    pub(crate) shade: Shade,
 }
 
 /// The method that evaluates this BRDF at each pixel.
-pub(crate) fn method(name: &'static str, brdf: impl Fn(&Pixel) -> f32 + 'static) -> Method {
+fn method(name: &'static str, brdf: impl Fn(&Pixel) -> f32 + 'static) -> Method {
     let shade = move |pixels: &[Pixel], radiance: &mut [f32]| {
         for (radiance, pixel) in radiance.iter_mut().zip(pixels) {
             *radiance = pixel.diffuse + pixel.irradiance * brdf(pixel);

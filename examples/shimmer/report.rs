@@ -1,6 +1,6 @@
 //! Tables: Markdown on the terminal, CSV in a file.
 
-use std::fmt::Write;
+use core::fmt::Write;
 
 use crate::errors::GRAZING;
 use crate::study::Study;

@@ -1,6 +1,6 @@
 //! What shading costs, with its filter and without the geometry.
 
-use std::hint::black_box;
+use core::hint::black_box;
 use std::time::Instant;
 
 use crate::methods::Method;
