@@ -94,11 +94,12 @@ impl<P: ShapeInvariant, M: Map> Microsurface<P, M> {
 impl<M: Map> Microsurface<Ggx, M> {
     /// How much filtering with Σ would change P22 at this slope, as a share of P22 there: an upper bound.
     ///
-    /// 10 tr(A⁻¹Σ)/(1 + tᵀA⁻¹t): far from the highlight the tail is smooth on the scale of the slope itself, and a pixel
+    /// 12 tr(A⁻¹Σ)/(1 + tᵀA⁻¹t): far from the highlight the tail is smooth on the scale of the slope itself, and a pixel
     /// there needs no filter even where the highlight needs one.
     ///
     /// # Returns
-    /// 0 for Σ = 0. Above about 0.1 filter: the bound is that of the second derivative, and holds where it is small.
+    /// 0 for Σ = 0. The second derivative bounds the change by 10 in place of 12, and what follows it by less than the rest as
+    /// long as the result is below 0.1; above it, filter.
     ///
     /// # Example
     /// ```
@@ -117,7 +118,7 @@ impl<M: Map> Microsurface<Ggx, M> {
         let (a, c) = (c11 / r11, c22 / r22);
         let b = (c12 - r12 * a) / r22;
         let [x, y] = seen_by_profile(self.map(), slope);
-        M::Scalar::lit(10.0 * (a * a + b * b + c * c) / (1.0 + x * x + y * y))
+        M::Scalar::lit(12.0 * (a * a + b * b + c * c) / (1.0 + x * x + y * y))
     }
 }
 

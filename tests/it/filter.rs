@@ -1,5 +1,6 @@
 //! Filters of distributions.
 
+mod convolution;
 mod deferred;
 mod footprints;
 mod means;

@@ -5,7 +5,7 @@ const NODES: [f64; 3] = [0.23861918608319690863, 0.66120938646626451366, 0.93246
 const WEIGHTS: [f64; 3] = [0.46791393457269104739, 0.36076157304813860757, 0.17132449237917034504];
 
 /// The longest side of a cell in units of its scale.
-const SIDE: f64 = 0.5;
+const SIDE: f64 = 1.0;
 /// Splitting in turns needs a stack no deeper than the splits of one path: 2 × 30 for a ratio of 1e9.
 const DEPTH: usize = 80;
 
@@ -21,7 +21,7 @@ struct Cell {
 /// The mean of f over `centre` ± ½u ± ½v.
 ///
 /// `scale(r)` is the distance on which f varies at the distance r from the origin, growing with r. Cells are halved until
-/// their sides are no longer than half of it; six points in either direction then leave a relative error of 2e-10.
+/// their sides are no longer than that; six points in either direction then leave a relative error below 1e-9.
 pub(super) fn mean(
     centre: [f64; 2],
     u: [f64; 2],

@@ -58,7 +58,7 @@ struct Worst {
 
 impl Worst {
     fn see(&mut self, mean: f64, exact: f64, at: impl FnOnce() -> String) {
-        let error = (mean / exact - 1.0).abs();
+        let error = if mean == exact { 0.0 } else { (mean / exact - 1.0).abs() };
         assert!(!error.is_nan(), "{mean:e} instead of {exact:e}: {}", at());
         if error > self.error {
             (self.error, self.at) = (error, at());
@@ -142,9 +142,9 @@ where
 fn ggx_over_parallelograms_of_all_sizes() {
     let surface = Ggx::isotropic(1.0).unwrap();
     // Parallelograms and thin ones; lines; thin ones whose edges have nearly one direction.
-    worst_of(&surface, 1.0, &[0, 1], 600, |_| true).assert_within(2e-11);
+    worst_of(&surface, 1.0, &[0, 1], 600, |_| true).assert_within(5e-11);
     worst_of(&surface, 1.0, &[2, 3], 400, |_| true).assert_within(3e-11);
-    worst_of(&surface, 1.0, &[4], 600, |_| true).assert_within(5e-11);
+    worst_of(&surface, 1.0, &[4], 600, |_| true).assert_within(1.2e-10);
 }
 
 #[test]
@@ -154,14 +154,12 @@ fn gtr_and_beckmann_over_parallelograms() {
             let surface = Gtr::isotropic(alpha, gamma).unwrap();
             // As a heavier tail than GGX asks for more of the cubature.
             let worst = worst_of(&surface, alpha, &[0, 1, 2, 3, 4], 40, |[_, u, _]| u.length() < 1e3);
-            println!("{gamma} {alpha} {worst:?}");
             assert!(worst.error < 1e-9, "{gamma} {alpha}: {worst:?}");
         }
     }
     let surface = Beckmann::isotropic(1.0).unwrap();
     let near = |[slope, u, v]: [DVec2; 3]| slope.length() - 0.5 * (u.length() + v.length()) < 8.0;
     let worst = worst_of(&surface, 0.3, &[0, 1, 2, 3, 4], 200, near);
-    println!("{worst:?}");
     assert!(worst.error < 1e-9, "{worst:?}");
 }
 
@@ -180,7 +178,7 @@ fn maps_carry_parallelograms_to_parallelograms() {
         let [slope, u, v] = footprint.map(moved);
         worst.see(polygon::mean_p22(&surface, slope, u, v), exact, || format!("{slope} {u} {v}"));
     }
-    worst.assert_within(4e-11);
+    worst.assert_within(8e-11);
 }
 
 #[test]
@@ -205,8 +203,8 @@ fn rectangles_are_parallelograms_along_the_axes() {
         let of_beckmann = mean(&|slope, half| rectangle::mean_p22(&beckmann, slope, half));
         worst[2].see(of_beckmann, exact(&|t| beckmann.p22(scale * t)), at);
     }
-    worst[0].assert_within(2e-11);
-    worst[1].assert_within(2e-11);
+    worst[0].assert_within(3e-11);
+    worst[1].assert_within(1.2e-11);
     worst[2].assert_within(1e-11);
 }
 

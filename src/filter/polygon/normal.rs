@@ -1,0 +1,94 @@
+//! The mean of the unit Beckmann distribution over boxes and parallelograms.
+
+use core::f64::consts::FRAC_2_SQRT_PI;
+
+use crate::Real;
+use crate::elementary::{erf, erfc, exp_neg_square};
+use crate::filter::polygon::lambert::GAUSS;
+
+/// The longest panel of the rule across.
+const PANEL: f64 = 0.5;
+/// What lies this much farther from the origin, in squares, than the nearest of all is below 1e-16 of it.
+const NEGLIGIBLE: f64 = 40.0;
+
+/// The mean of e^{−x²}/√π within `half` of x.
+#[inline]
+pub(super) fn mean_within(x: f64, half: f64) -> f64 {
+    let (x, half) = (x.abs(), half.abs());
+    if half * (1.0 + x) <= 0.25 {
+        let near = |&[node, weight]: &[f64; 2]| weight * exp_neg_square(x + 2.0 * half * node);
+        return 0.5 * FRAC_2_SQRT_PI * GAUSS.iter().fold(0.0, |sum, point| sum + near(point));
+    }
+    let (begin, end) = (x - half, x + half);
+    // Whichever of both does not cancel.
+    let twice = if begin > 0.0 { erfc(begin) - erfc(end) } else { erf(end) - erf(begin) };
+    twice / (4.0 * half)
+}
+
+/// The mean of e^{−|t|²}/π over `centre` ± ½u ± ½v.
+///
+/// Along the longer edge an error function, across it five points of Gauss's rule in each of as many panels as are
+/// needed where the density is not negligible.
+pub(super) fn mean(centre: [f64; 2], u: [f64; 2], v: [f64; 2]) -> f64 {
+    let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
+    let (u, v) = if dot(u, u) < dot(v, v) { (v, u) } else { (u, v) };
+    let (long, short) = (Real::sqrt(dot(u, u)), Real::sqrt(dot(v, v)));
+    let unit = if long > 0.0 { [u[0] / long, u[1] / long] } else { [1.0, 0.0] };
+    // Along and across the longer edge.
+    let turned = |t: [f64; 2]| [dot(unit, t), unit[0] * t[1] - unit[1] * t[0]];
+    let ([x, y], [dx, dy]) = (turned(centre), turned(v));
+    let half = 0.5 * long;
+    // The line at b of the shorter edge, and its squared distance from the origin.
+    let line = |b: f64| (x + b * dx, y + b * dy);
+    let distance2 = |b: f64| {
+        let (x, y) = line(b);
+        let along = (x.abs() - half).max(0.0);
+        along * along + y * y
+    };
+    // It is convex in b: thirds lead to the least, and from there outwards to what is negligible.
+    let (mut low, mut high) = (-0.5, 0.5);
+    for _ in 0..60 {
+        let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+        if distance2(a) < distance2(b) {
+            high = b;
+        } else {
+            low = a;
+        }
+    }
+    let nearest = 0.5 * (low + high);
+    let limit = distance2(nearest) + NEGLIGIBLE;
+    let end_towards = |end: f64| {
+        let (mut inside, mut outside) = (nearest, end);
+        if distance2(end) <= limit {
+            return end;
+        }
+        for _ in 0..30 {
+            let middle = 0.5 * (inside + outside);
+            if distance2(middle) <= limit {
+                inside = middle;
+            } else {
+                outside = middle;
+            }
+        }
+        outside
+    };
+    let (first, last) = (end_towards(-0.5), end_towards(0.5));
+    // The density varies on a distance of 1 near the origin and of 1/r far from it.
+    let steepness = 1.0 + Real::sqrt(distance2(nearest));
+    let panels = (last - first) * short * steepness / PANEL;
+    let (mut count, mut width) = (1, last - first);
+    while f64::from(count) < panels {
+        count *= 2;
+        width *= 0.5;
+    }
+    let mut sum = 0.0;
+    for panel in 0..count {
+        let middle = first + width * (f64::from(panel) + 0.5);
+        for [node, weight] in GAUSS {
+            let (x, y) = line(middle + width * node);
+            sum += weight * exp_neg_square(y) * mean_within(x, half);
+        }
+    }
+    // mean_within has one of the two 1/√π.
+    0.5 * FRAC_2_SQRT_PI * sum * width
+}
