@@ -6,7 +6,7 @@ use microsurface::filter::covariance::{
 };
 use microsurface::filter::deferred::{self, Bound, Kernel};
 use microsurface::filter::polygon::{self, MeanOverParallelogram};
-use microsurface::filter::{Covariance, Footprint, projected, rectangle};
+use microsurface::filter::{Covariance, Footprint, gaussian, projected, rectangle};
 use microsurface::fresnel::Fresnel;
 use microsurface::profile::{Profile, ShapeInvariant};
 use microsurface::{AxisAligned, Beckmann, Error, Ggx, Isotropic, Microsurface, Ndf};
@@ -43,6 +43,7 @@ pub(crate) const RECTANGLE: &str = "rectangle";
 pub(crate) const PARALLELOGRAM: &str = "parallelogram";
 pub(crate) const ANALYTIC_SLOPES: &str = "analytic: slopes, 1/4";
 pub(crate) const ANALYTIC_BOX: &str = "analytic: slopes, 1/12";
+pub(crate) const ANALYTIC_GAUSSIAN: &str = "analytic: GGX * Gaussian, 1/12";
 pub(crate) const ANALYTIC_PARALLELOGRAM: &str = "analytic: parallelogram";
 
 /// The methods for each of the materials.
@@ -69,20 +70,31 @@ fn forward<P: MeanOverParallelogram<f32> + ShapeInvariant + 'static>(surface: Su
             let half_extents = p.quad.slopes.clamped_extents(1.0) * 0.5;
             averaged(&surface, rectangle::mean_p22(&surface, p.slope, half_extents), p)
         }),
+        parallelogram(PARALLELOGRAM, surface, |p| slopes(&p.quad)),
         filtered(PROJECTED, surface, |p| p.quad.projected.covariance(VARIANCE_KAPLANYAN2016 as f32)),
     ]
 }
 
-/// What only GGX has: means in closed form over any parallelogram, and the filter of projected space.
+/// What only GGX has or needs: the filter of projected space, and the Gaussian one that keeps its tail.
 fn only_ggx(surface: Surface<Ggx>) -> Vec<Method> {
     let variance = VARIANCE_TOKUYOSHI2021 as f32;
     vec![
         method(PROJECTED_2021, move |p| {
             reflected(projected::filtered(&surface, p.quad.projected, variance), p)
         }),
-        parallelogram(PARALLELOGRAM, surface, |p| slopes(&p.quad)),
         parallelogram("parallelogram of m.xy", surface, |p| p.quad.projected),
-        parallelogram(ANALYTIC_PARALLELOGRAM, surface, |p| slopes(&p.analytic)),
+        method("GGX * Gaussian of two, 1/12", move |p| {
+            let kernel = slopes(&p.quad).covariance(VARIANCE_OF_BOX as f32);
+            reflected(gaussian::filtered_by_two(&surface, kernel), p)
+        }),
+        method("GGX * Gaussian, 1/12", move |p| {
+            let kernel = slopes(&p.quad).covariance(VARIANCE_OF_BOX as f32);
+            reflected(gaussian::filtered(&surface, kernel), p)
+        }),
+        method(ANALYTIC_GAUSSIAN, move |p| {
+            let kernel = slopes(&p.analytic).covariance(VARIANCE_OF_BOX as f32);
+            reflected(gaussian::filtered(&surface, kernel), p)
+        }),
     ]
 }
 
@@ -114,13 +126,14 @@ fn deferred<P: Profile<f32> + 'static>(surface: Surface<P>) -> Vec<Method> {
 }
 
 /// The same filters from analytic derivatives.
-fn analytic<P: Profile<f32> + ShapeInvariant + 'static>(surface: Surface<P>) -> Vec<Method> {
+fn analytic<P: MeanOverParallelogram<f32> + ShapeInvariant + 'static>(surface: Surface<P>) -> Vec<Method> {
     vec![
         filtered(ANALYTIC_SLOPES, surface, |p| slopes(&p.analytic).covariance(VARIANCE_KAPLANYAN2016 as f32)),
         filtered(ANALYTIC_BOX, surface, |p| slopes(&p.analytic).covariance(VARIANCE_OF_BOX as f32)),
         filtered("analytic: projected 2017, 1/12", surface, |p| {
             p.analytic.projected.covariance(VARIANCE_OF_BOX as f32)
         }),
+        parallelogram(ANALYTIC_PARALLELOGRAM, surface, |p| slopes(&p.analytic)),
     ]
 }
 
@@ -139,9 +152,9 @@ fn filtered<P: Profile<f32> + ShapeInvariant + 'static>(
 }
 
 /// The mean of P22 over a footprint of each pixel in the place of P22.
-fn parallelogram(
+fn parallelogram<P: MeanOverParallelogram<f32> + 'static>(
     name: &'static str,
-    surface: Surface<Ggx>,
+    surface: Surface<P>,
     footprint: impl Fn(&Pixel) -> Footprint<f32> + 'static,
 ) -> Method {
     method(name, move |p| {

@@ -60,8 +60,7 @@ fn widening(s: f64) -> (f64, f64) {
 /// A mixture of one GGX and N Beckmann surfaces: a GGX convolved with a Gaussian.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FilteredGgx<T, const N: usize> {
-    tail: Microsurface<Ggx, Linear<T>>,
-    tail_weight: T,
+    tail: (T, Microsurface<Ggx, Linear<T>>),
     cores: [(T, Microsurface<Beckmann, Linear<T>>); N],
 }
 
@@ -91,12 +90,12 @@ pub fn filtered<M: Map>(
     covariance: Covariance<M::Scalar>,
 ) -> Result<FilteredGgx<M::Scalar, 6>, Error> {
     let mixture = Mixture::new(surface, covariance);
-    let FilteredGgx { tail, tail_weight, cores: [rest] } = mixture.tail(TAIL)?;
+    let FilteredGgx { tail, cores: [rest] } = mixture.tail(TAIL)?;
     let mut cores = [rest; 6];
     for (core, [x, w]) in cores.iter_mut().zip(CORES) {
         *core = (M::Scalar::lit(w), mixture.core(1.0 / x, 1.0, 1.0)?);
     }
-    Ok(FilteredGgx { tail, tail_weight, cores })
+    Ok(FilteredGgx { tail, cores })
 }
 
 /// GGX(A) ⊛ N(Σ) as a GGX and one Beckmann surface: cheaper, exact at Σ = 0, best for kernels that are about as wide in
@@ -146,11 +145,25 @@ impl<T: Real> Mixture<T> {
         let (map, widened) = self.map(a, k)?;
         let weight = before / (a * widened);
         let rest = (T::lit(1.0 / a - weight), self.core(a, 1.0, c)?);
-        Ok(FilteredGgx { tail: Microsurface::new(Ggx, map), tail_weight: T::lit(weight), cores: [rest] })
+        Ok(FilteredGgx { tail: (T::lit(weight), Microsurface::new(Ggx, map)), cores: [rest] })
     }
 }
 
 impl<T: Real, const N: usize> FilteredGgx<T, N> {
+    /// The GGX that carries the tail, and its weight.
+    #[inline]
+    #[must_use]
+    pub const fn tail(&self) -> &(T, Microsurface<Ggx, Linear<T>>) {
+        &self.tail
+    }
+
+    /// The Beckmann surfaces and their weights.
+    #[inline]
+    #[must_use]
+    pub const fn cores(&self) -> &[(T, Microsurface<Beckmann, Linear<T>>); N] {
+        &self.cores
+    }
+
     /// Σ w f of all components.
     #[inline(always)]
     fn weighted(
@@ -158,7 +171,7 @@ impl<T: Real, const N: usize> FilteredGgx<T, N> {
         of_tail: impl Fn(&Microsurface<Ggx, Linear<T>>) -> T,
         of_core: impl Fn(&Microsurface<Beckmann, Linear<T>>) -> T,
     ) -> T {
-        let tail = self.tail_weight * of_tail(&self.tail);
+        let tail = self.tail.0 * of_tail(&self.tail.1);
         self.cores.iter().fold(tail, |sum, (weight, core)| sum + *weight * of_core(core))
     }
 
@@ -171,7 +184,8 @@ impl<T: Real, const N: usize> FilteredGgx<T, N> {
         of_core: impl Fn(&Microsurface<Beckmann, Linear<T>>) -> T,
     ) -> (usize, T) {
         let shares = self.cores.map(|(weight, core)| weight * of_core(&core));
-        let total = shares.iter().fold(self.tail_weight * of_tail, |sum, &share| sum + share);
+        let of_tail = self.tail.0 * of_tail;
+        let total = shares.iter().fold(of_tail, |sum, &share| sum + share);
         let largest = T::ONE - T::HALF * T::EPSILON;
         let mut rest = u * total;
         for (i, &share) in shares.iter().enumerate() {
@@ -180,7 +194,7 @@ impl<T: Real, const N: usize> FilteredGgx<T, N> {
             }
             rest -= share;
         }
-        (N, (rest / (self.tail_weight * of_tail)).max(T::ZERO).min(largest))
+        (N, (rest / of_tail).max(T::ZERO).min(largest))
     }
 }
 
@@ -224,7 +238,7 @@ impl<T: Real, const N: usize> SampleNdf for FilteredGgx<T, N> {
         let (i, u2) = self.choose(u2, T::ONE, |_| T::ONE);
         self.cores
             .get(i)
-            .map_or_else(|| self.tail.sample_d([u1, u2].into()), |(_, core)| core.sample_d([u1, u2].into()))
+            .map_or_else(|| self.tail.1.sample_d([u1, u2].into()), |(_, core)| core.sample_d([u1, u2].into()))
     }
 }
 
@@ -232,9 +246,9 @@ impl<T: Real, const N: usize> SampleVndf for FilteredGgx<T, N> {
     /// u.y chooses a component by what is seen of it, and is used again for the choice within.
     fn sample_vndf(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self> {
         let [u1, u2]: [T; 2] = u.into();
-        let (i, u2) = self.choose(u2, self.tail.sigma(w), |core| core.sigma(w));
+        let (i, u2) = self.choose(u2, self.tail.1.sigma(w), |core| core.sigma(w));
         self.cores.get(i).map_or_else(
-            || self.tail.sample_vndf(w, [u1, u2].into()),
+            || self.tail.1.sample_vndf(w, [u1, u2].into()),
             |(_, core)| core.sample_vndf(w, [u1, u2].into()),
         )
     }

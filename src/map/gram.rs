@@ -23,8 +23,15 @@ impl Gram {
     }
 
     /// Both principal α are finite and within the range of the scalar. False for NaN.
+    #[inline]
     pub(crate) fn in_range<T: Real>(&self) -> bool {
         let (smallest, largest) = crate::roughness::alpha_range::<T>();
+        // The trace is between the larger α² and twice that: nearly always it tells without a root.
+        let (small, large) = (smallest.to_f64(), largest.to_f64());
+        let trace = self.xx + self.yy;
+        if trace <= large * large && self.root * self.root >= small * small * trace && trace > 0.0 {
+            return true;
+        }
         let [alpha_max, alpha_min] = self.principal();
         // A relative slack of a few ε: an α at the very end of the range stays accepted after a rotation.
         let slack = 1.0 + 8.0 * T::EPSILON.to_f64();

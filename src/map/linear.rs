@@ -54,6 +54,7 @@ impl<T: Real> Linear<T> {
     }
 
     /// The map of a positive definite RᵀR: Cholesky's factor.
+    #[inline]
     fn triangular(Gram { xx, xy, root, .. }: Gram) -> Self {
         let r11 = Real::sqrt(xx);
         let [r11, r12, r22] = [r11, xy / r11, root / r11].map(T::lit);
@@ -61,16 +62,17 @@ impl<T: Real> Linear<T> {
     }
 
     /// What follows from the three stored numbers, rounded once.
+    #[inline]
     fn stored(r11: T, r12: T, r22: T) -> Self {
         let [a, b, d] = [r11, r12, r22].map(T::to_f64);
-        let k = Real::sqrt(d / a);
+        let root = Real::sqrt(a * d);
         Self {
             r11,
             r12,
             r22,
-            k: T::lit(k),
-            inv_k: T::lit(1.0 / k),
-            shear: T::lit(b / Real::sqrt(a * d)),
+            k: T::lit(d / root),
+            inv_k: T::lit(a / root),
+            shear: T::lit(b / root),
             area: T::lit(a * d),
             scale: scale(r11, r22),
         }

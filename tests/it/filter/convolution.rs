@@ -180,22 +180,46 @@ fn the_mixture_is_a_surface() {
         let lambda = filtered.lambda(w.into());
         assert!((w[2] * (1.0 + lambda) - sigma).abs() < 1e-12 * sigma, "{w:?}");
     }
-    // All samples are visible, and their mean normal is that of the density.
-    let w = DVec3::new(0.5, 0.3, 0.8).normalize();
-    let (mut mean, mut all, n) = (DVec3::ZERO, DVec2::ZERO, 200);
-    for i in 0..n * n {
-        let u = DVec2::new((i % n) as f64 + 0.5, (i / n) as f64 + 0.5) / n as f64;
+    // All samples are visible, and their means are those of the components by what is seen of each.
+    let w = DVec3::new(0.36, 0.93, 0.07).normalize();
+    let (n, m) = (100, 2000);
+    let means = |sample: &dyn Fn(DVec2) -> DVec3| {
+        let mut sums = [DVec3::ZERO; 2];
+        for i in 0..n * m {
+            let u = DVec2::new(((i % n) as f64 + 0.5) / n as f64, ((i / n) as f64 + 0.5) / m as f64);
+            let wm = sample(u);
+            sums[0] += wm;
+            sums[1] += wm * wm;
+        }
+        sums.map(|sum| sum / (n * m) as f64)
+    };
+    let visible = means(&|u| {
         let wm = filtered.sample_vndf(w, u);
         assert!(w.dot(wm) > 0.0 && filtered.vndf(w, wm) > 0.0);
-        mean += wm / (n * n) as f64;
-        let m = filtered.sample_d(u);
-        all += m.truncate() * m.truncate() / (n * n) as f64;
+        wm
+    });
+    let all = means(&|u| filtered.sample_d(u));
+    let (weight, tail) = filtered.tail();
+    let mut expected_visible = means(&|u| tail.sample_vndf(w, u)).map(|m| m * weight * tail.sigma(w));
+    let mut expected_all = means(&|u| tail.sample_d(u)).map(|m| m * weight);
+    let mut total = *weight;
+    for (weight, core) in filtered.cores() {
+        total += weight;
+        for (sum, m) in expected_visible.iter_mut().zip(means(&|u| core.sample_vndf(w, u))) {
+            *sum += m * weight * core.sigma(w);
+        }
+        for (sum, m) in expected_all.iter_mut().zip(means(&|u| core.sample_d(u))) {
+            *sum += m * weight;
+        }
     }
-    let exact = plane.over_visible_normals(w.into(), |m| m.map(|c| c * filtered.vndf(w, m.into())));
-    let squares = plane
-        .over_visible_normals([0.0, 0.0, 1.0], |m| [0, 1].map(|k| m[k] * m[k] * filtered.pdf_d(m.into())));
-    for (mean, exact) in mean.to_array().iter().zip(exact).chain(all.to_array().iter().zip(squares)) {
-        assert!((mean - exact.value).abs() < 3e-4, "{mean} {exact:?}");
+    assert!((total - 1.0).abs() < 1e-15, "{total}");
+    let sigma = filtered.sigma(w);
+    for k in 0..2 {
+        assert!(
+            visible[k].abs_diff_eq(expected_visible[k] / sigma, 1e-3),
+            "{visible:?} {expected_visible:?}"
+        );
+        assert!(all[k].abs_diff_eq(expected_all[k], 1e-3), "{all:?} {expected_all:?}");
     }
 }
 
