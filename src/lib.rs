@@ -41,6 +41,7 @@
 //! | a deforming mesh, a map of the texture | [`transform::tension`], [`transform::jacobian_of_uv_map`] |
 //! | a distribution of your own | implement [`Ndf`]; moved by [`transform::Transformed`] |
 //! | α from an artist's roughness | [`roughness`] |
+//! | highlights that do not shimmer | [`filter`] |
 //! | reflection | [`bsdf::RoughConductor`] with a [`fresnel`] term |
 //! | GTR sampled as in its papers | [`bsdf::UniformMixture`] |
 //!

@@ -2,7 +2,7 @@
 
 use crate::effort::SIXTEEN;
 use crate::methods::{
-    ANALYTIC_BOX, ANALYTIC_PARALLELOGRAM, ANALYTIC_SLOPES, BOX, DEFERRED, PARALLELOGRAM, PROJECTED,
+    ANALYTIC_BOX, ANALYTIC_PARALLELOGRAM, ANALYTIC_SLOPES, BOX, DEFERRED, GAUSSIAN, PARALLELOGRAM, PROJECTED,
     PROJECTED_2021, RECTANGLE, SLOPES, UNFILTERED,
 };
 use crate::study::{Row, Study};
@@ -69,7 +69,7 @@ impl Claims {
             let grazing = |name| row(name).errors.grazing;
             let claim = format!("by {SLOPES:?}, pixels of grazing half vectors are wrong by more than 0.3");
             self.below(&claim, 0.3, grazing(SLOPES));
-            for name in [PROJECTED, PROJECTED_2021, RECTANGLE, PARALLELOGRAM] {
+            for name in [PROJECTED, PROJECTED_2021, RECTANGLE, PARALLELOGRAM, GAUSSIAN] {
                 let claim = format!("by {name:?} they are wrong by less than a tenth of that");
                 self.below(&claim, grazing(name), 0.1 * grazing(SLOPES));
             }

@@ -100,7 +100,8 @@ fn shimmer(effort: Effort) -> Result<bool, String> {
         .map_err(|error| format!("cannot write {}: {error}", path.display()))?;
     println!(
         "\n{OUTPUT}/SCENE-MATERIAL.png: the reference, number 0, and the methods by their numbers in the table;\n\
-         -highlights.png and -grazing.png: parts of them, enlarged; shimmer.csv: all numbers. {:.0} s\n",
+         -highlights.png and -grazing.png: parts of them, enlarged; -selected.png: the reference, then unfiltered, A + 2Σ,\n\
+         projected, GGX * Gaussian and the parallelogram; shimmer.csv: all numbers. {:.0} s\n",
         start.elapsed().as_secs_f64()
     );
     Ok(claims::check(&studies))
@@ -114,5 +115,9 @@ fn write_pictures(study: &Study) -> Result<(), String> {
     sheet::whole(study).write_png(&path(""))?;
     let [highlights, grazing] = study.crops;
     sheet::crop(study, highlights).write_png(&path("-highlights"))?;
-    sheet::crop(study, grazing).write_png(&path("-grazing"))
+    sheet::crop(study, grazing).write_png(&path("-grazing"))?;
+    if study.material == "GGX" {
+        sheet::selected(study, methods::SELECTED).write_png(&path("-selected"))?;
+    }
+    Ok(())
 }

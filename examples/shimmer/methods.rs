@@ -43,8 +43,13 @@ pub(crate) const RECTANGLE: &str = "rectangle";
 pub(crate) const PARALLELOGRAM: &str = "parallelogram";
 pub(crate) const ANALYTIC_SLOPES: &str = "analytic: slopes, 1/4";
 pub(crate) const ANALYTIC_BOX: &str = "analytic: slopes, 1/12";
+pub(crate) const GAUSSIAN: &str = "GGX * Gaussian, 1/12";
 pub(crate) const ANALYTIC_GAUSSIAN: &str = "analytic: GGX * Gaussian, 1/12";
 pub(crate) const ANALYTIC_PARALLELOGRAM: &str = "analytic: parallelogram";
+
+/// For a picture of few: what goes wrong, and what cures it.
+pub(crate) const SELECTED: [&str; 5] =
+    [UNFILTERED, SLOPES, PROJECTED_2021, ANALYTIC_GAUSSIAN, ANALYTIC_PARALLELOGRAM];
 
 /// The methods for each of the materials.
 pub(crate) fn methods() -> Result<[Vec<Method>; 2], Error> {
@@ -87,7 +92,7 @@ fn only_ggx(surface: Surface<Ggx>) -> Vec<Method> {
             let kernel = slopes(&p.quad).covariance(VARIANCE_OF_BOX as f32);
             reflected(gaussian::filtered_by_two(&surface, kernel), p)
         }),
-        method("GGX * Gaussian, 1/12", move |p| {
+        method(GAUSSIAN, move |p| {
             let kernel = slopes(&p.quad).covariance(VARIANCE_OF_BOX as f32);
             reflected(gaussian::filtered(&surface, kernel), p)
         }),

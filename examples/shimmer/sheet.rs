@@ -28,6 +28,14 @@ pub(crate) fn crop(study: &Study, region: Region) -> Image {
     joined(images(study).map(|image| enlarged(image, region.corner, region.size, ZOOM)))
 }
 
+/// The reference and these methods, three in a row, without numbers.
+pub(crate) fn selected(study: &Study, names: [&str; 5]) -> Image {
+    let chosen = names.iter().filter_map(|name| study.rows.iter().find(|row| row.name == *name));
+    let images = core::iter::once(&study.reference).chain(chosen.map(|row| &row.image));
+    let copied = |image: &Image| enlarged(image, [0, 0], [image.width, image.height].map(|n| n as usize), 1);
+    in_columns::<3>(images.map(copied).collect())
+}
+
 fn images(study: &Study) -> impl Iterator<Item = &Image> {
     core::iter::once(&study.reference).chain(study.rows.iter().map(|row| &row.image))
 }
@@ -42,15 +50,22 @@ fn enlarged(image: &Image, corner: [usize; 2], size: [usize; 2], zoom: usize) ->
     Image { width: width as u32, height: height as u32, pixels }
 }
 
-/// All pictures as one, with lines between them and their numbers in their corners.
+/// All pictures as one, their numbers in their corners.
 fn joined(images: impl Iterator<Item = Image>) -> Image {
-    let images: Vec<Image> = images.collect();
+    let numbered = images.enumerate().map(|(i, mut image)| {
+        number(&mut image, i);
+        image
+    });
+    in_columns::<COLUMNS>(numbered.collect())
+}
+
+/// All pictures as one, with lines between them.
+fn in_columns<const COLUMNS: usize>(images: Vec<Image>) -> Image {
     let size = [images[0].width as usize, images[0].height as usize];
     let whole = |count: usize, size: usize| count * (size + GAP) - GAP;
     let total = [whole(COLUMNS, size[0]), whole(images.len().div_ceil(COLUMNS), size[1])];
     let mut pixels = vec![Vec3::splat(0.05); total[0] * total[1]];
-    for (i, mut image) in images.into_iter().enumerate() {
-        number(&mut image, i);
+    for (i, image) in images.into_iter().enumerate() {
         let [x, y] = [(i % COLUMNS) * (size[0] + GAP), (i / COLUMNS) * (size[1] + GAP)];
         for (row, line) in image.pixels.chunks_exact(size[0]).enumerate() {
             let start = (y + row) * total[0] + x;

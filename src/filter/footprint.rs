@@ -16,7 +16,7 @@ use crate::filter::covariance::Covariance;
 /// use microsurface::{Ggx, Ndf, filter::{Footprint, polygon}, glam::Vec2};
 /// let surface = Ggx::isotropic(0.01_f32)?;
 /// let footprint = Footprint::<f32>::new(Vec2::new(0.03, 0.01), Vec2::new(-0.01, 0.05)).clamped(1.0);
-/// let slope = Vec2::new(0.02, 0.0); // beside the highlight, which is within the pixel
+/// let slope = Vec2::new(0.012, 0.02); // beside the highlight, which is within the pixel
 /// let [du, dv] = footprint.steps();
 /// assert!(polygon::mean_p22(&surface, slope, du, dv) > 2.0 * surface.p22(slope));
 /// # Ok::<(), microsurface::Error>(())

@@ -128,7 +128,7 @@ fn the_mixtures_are_as_near_to_the_convolution_as_stated() {
     // Of proxy, two and seven components.
     let stated = [
         [[0.205, 1024.0, 0.24], [0.032, 0.33, 0.025], [0.0046, 0.33, 0.012]],
-        [[0.145, 29e3, 0.16], [0.115, 400.0, 0.075], [0.0105, 70.0, 0.012]],
+        [[0.145, 29e3, 0.16], [0.1, 4.8, 0.075], [0.011, 2.2, 0.012]],
     ];
     for (shape, stated) in stated.iter().enumerate() {
         let mut worst = [[0.0_f64; 3]; 3];
@@ -182,16 +182,17 @@ fn the_mixture_is_a_surface() {
     }
     // All samples are visible, and their means are those of the components by what is seen of each.
     let w = DVec3::new(0.36, 0.93, 0.07).normalize();
-    let (n, m) = (100, 2000);
+    let (n, m) = (100_u32, 2000_u32);
     let means = |sample: &dyn Fn(DVec2) -> DVec3| {
         let mut sums = [DVec3::ZERO; 2];
         for i in 0..n * m {
-            let u = DVec2::new(((i % n) as f64 + 0.5) / n as f64, ((i / n) as f64 + 0.5) / m as f64);
+            let u =
+                DVec2::new((f64::from(i % n) + 0.5) / f64::from(n), (f64::from(i / n) + 0.5) / f64::from(m));
             let wm = sample(u);
             sums[0] += wm;
             sums[1] += wm * wm;
         }
-        sums.map(|sum| sum / (n * m) as f64)
+        sums.map(|sum| sum / f64::from(n * m))
     };
     let visible = means(&|u| {
         let wm = filtered.sample_vndf(w, u);
