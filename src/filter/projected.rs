@@ -1,7 +1,9 @@
 //! Filtering in the projected space of m.xy: stable where the half vector is at grazing angles.
 //!
-//! A step of the half vector is |dt| = |dm.xy|/m.z³ at most in slopes: near the horizon the errors of its derivative
-//! grow without bound, and a filter of slopes shows false highlights there. On the disc of m.xy they stay what they are.
+//! A step of the half vector is |dt| = |dm.xy|/m.z³ at most in slopes: near the horizon the errors of its derivative, and
+//! kernels themselves, grow without bound, and A + 2Σ of slopes shows false highlights there. On the disc of m.xy they stay
+//! what they are. (Filters that keep the tail of GGX, [`gaussian`](super::gaussian) and [`polygon`](super::polygon), have
+//! no such highlights in slopes either.)
 //!
 //! # Derivation
 //! With m.z² = 1 − |m.xy|², GGX of roughness matrix A is m.xyᵀA⁻¹m.xy + m.z² = 1 + m.xyᵀAₚ⁻¹m.xy: on the disc it is again
@@ -88,10 +90,8 @@ pub fn filtered_by<M: Map>(
     covariance: Covariance<M::Scalar>,
 ) -> Result<Microsurface<Ggx, Linear<M::Scalar>>, Error> {
     let c = covariance.factor().map(|entry| core::f64::consts::SQRT_2 * entry);
-    match Linear::of_gram(convolved(factor(surface.map()), c)) {
-        Some(map) => Ok(Microsurface::new(*surface.profile(), map)),
-        None => Err(refused(covariance)),
-    }
+    let map = Linear::of_gram(convolved(factor(surface.map()), c)).ok_or_else(|| covariance.refused())?;
+    Ok(Microsurface::new(*surface.profile(), map))
 }
 
 /// A + (BCᵀ)(I + CBCᵀ)⁻¹(CB) of A = RᵀR and triangular C.
@@ -295,9 +295,4 @@ pub(super) fn checked_variance<T: Real>(variances: [T; 2]) -> Result<[f64; 2], E
         return Ok([x, y]);
     }
     Err(Error::Covariance { xx: x, xy: 0.0, yy: y })
-}
-
-fn refused<T: Real>(covariance: Covariance<T>) -> Error {
-    let [xx, xy, yy] = covariance.entries().map(T::to_f64);
-    Error::Covariance { xx, xy, yy }
 }
