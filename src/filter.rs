@@ -15,13 +15,41 @@
 //! | [`Microsurface::filtered`](crate::Microsurface::filtered): A + 2Σ | Beckmann ⊛ Gaussian | a map; evaluation as of any surface |
 //! | [`projected::filtered`] | – ; has no artefacts at grazing angles | the same |
 //! | [`gaussian::filtered`] | GGX ⊛ Gaussian to 2 %, its tail kept | a GGX and six Beckmann surfaces, or [one](gaussian::filtered_by_two) |
-//! | [`polygon::mean_p22`] | every profile with closed forms, over the parallelogram of the footprint | four arcus tangents |
+//! | [`polygon::mean_p22`] | a box filter of the pixel, every profile; no artefacts at grazing angles | four arcus tangents |
+//! | [`RoughConductor::eval_over`](crate::bsdf::RoughConductor::eval_over) | the same in a BRDF | |
 //! | [`rectangle::mean_p22`] | the same over a box, and Beckmann | the same; Beckmann: error functions |
 //! | [`deferred`] | – ; one number per pixel, before any light is known | a few products |
 //! | [`normal_map`] | what lies below the pixel in a texture, as one more Σ | lookups |
 //!
 //! **3. Is it needed?** [`Microsurface::change_by_filter`](crate::Microsurface::change_by_filter) and
 //! [`change_by_filter_at`](crate::Microsurface::change_by_filter_at) bound what is lost without.
+//!
+//! # Example
+//! One pixel, from the camera's ray to radiance: a ball of polished metal, lit by a point.
+//! ```
+//! use microsurface::bsdf::RoughConductor;
+//! use microsurface::filter::jacobian::{Curvature, HalfVector, Motion};
+//! use microsurface::filter::ray::RayDifferential;
+//! use microsurface::{Ggx, frame::Frame, fresnel::Schlick, glam::Vec3};
+//! let metal = RoughConductor::new(Ggx::isotropic(0.01_f32)?, Schlick::new(0.9_f32));
+//! let (eye, light) = (Vec3::new(0.0, 0.0, 5.0), Vec3::new(0.3, 0.0, 6.0));
+//! // The ray hits the pole of the unit ball about the origin.
+//! let (point, normal, distance) = (Vec3::Z, Vec3::Z, 4.0);
+//! let frame = Frame::<f32>::from_normal(normal);
+//! // How far the point moves per pixel, and how the normal turns with it.
+//! let ray = RayDifferential::<f32>::pinhole(-Vec3::Z, Vec3::X / 100.0, Vec3::Y / 100.0);
+//! let [du, dv] = ray.onto_plane(-Vec3::Z, distance, normal).map(|point| {
+//!     let normal = Curvature::sphere(1.0).normal_step(&frame, point);
+//!     Motion { point, normal, ..Motion::default() }
+//! });
+//! let half = HalfVector::<f32>::new(&frame, point, eye, light);
+//! let footprint = half.slope_footprint(&du, &dv).clamped(1.0);
+//! // What eval finds at the centre of the pixel, and what there is in the pixel.
+//! let [wi, wo] = [light, eye].map(|end| frame.to_local((end - point).normalize()));
+//! let (at_centre, in_pixel) = (metal.eval(wi, wo), metal.eval_over(wi, wo, &footprint));
+//! assert!(at_centre < in_pixel && in_pixel < 0.9 / (4.0 * core::f32::consts::PI * 0.01 * 0.01));
+//! # Ok::<(), microsurface::Error>(())
+//! ```
 //!
 //! # Units
 //! Slopes are tangents of angles, dimensionless; a footprint is in slopes per pixel, a [`Covariance`] Σ in slopes², and a

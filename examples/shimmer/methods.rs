@@ -5,7 +5,7 @@ use microsurface::filter::covariance::{
     LARGEST_KERNEL, VARIANCE_KAPLANYAN2016, VARIANCE_OF_BOX, VARIANCE_TOKUYOSHI2021,
 };
 use microsurface::filter::deferred::{self, Bound, Kernel};
-use microsurface::filter::polygon::{self, MeanOverParallelogram};
+use microsurface::filter::polygon::MeanOverParallelogram;
 use microsurface::filter::{Covariance, Footprint, gaussian, projected, rectangle};
 use microsurface::fresnel::Fresnel;
 use microsurface::profile::{Profile, ShapeInvariant};
@@ -156,16 +156,14 @@ fn filtered<P: Profile<f32> + ShapeInvariant + 'static>(
     method(name, move |p| reflected(surface.filtered(covariance(p)), p))
 }
 
-/// The mean of P22 over a footprint of each pixel in the place of P22.
+/// The BRDF over a footprint of each pixel.
 fn parallelogram<P: MeanOverParallelogram<f32> + 'static>(
     name: &'static str,
     surface: Surface<P>,
     footprint: impl Fn(&Pixel) -> Footprint<f32> + 'static,
 ) -> Method {
-    method(name, move |p| {
-        let [du, dv] = footprint(p).steps();
-        averaged(&surface, polygon::mean_p22(&surface, p.slope, du, dv), p)
-    })
+    let material = RoughConductor::new(surface, FRESNEL);
+    method(name, move |p| material.eval_over(p.wi, p.wo, &footprint(p)))
 }
 
 /// The BRDF F D̃ G2/(4 zi zo), where D̃ = P̃22/m.z⁴ has the mean of P22 over the pixel.

@@ -3,8 +3,12 @@
 use crate::Real;
 use crate::bsdf::Sample;
 use crate::bsdf::sampling::{NormalSampling, VisibleNormals};
+use crate::filter::Footprint;
+use crate::filter::polygon::{self, MeanOverParallelogram};
 use crate::frame::reflected;
 use crate::fresnel::{Fresnel, Spectrum};
+use crate::map::Map;
+use crate::microsurface::Microsurface;
 use crate::ndf::{Ndf, Vec2, Vec3, cosine_scale, masked_cosines};
 use crate::vector::dot;
 
@@ -137,6 +141,54 @@ where
         let [_, _, zi]: [N::Scalar; 3] = wi.into();
         let [_, _, zo]: [N::Scalar; 3] = wo.into();
         masked_cosines(zi, zo, self.surface.sigma_above(wi), self.surface.sigma_above(wo))
+    }
+}
+
+impl<P, M, F, S> RoughConductor<Microsurface<P, M>, F, S>
+where
+    P: MeanOverParallelogram<M::Scalar>,
+    M: Map,
+    F: Fresnel,
+    F::Output: Spectrum<Scalar = M::Scalar>,
+{
+    /// f(wi, wo) for a pixel whose half vectors cover a footprint in slopes: D is averaged over it, Fresnel and masking are
+    /// those of its centre.
+    ///
+    /// The mean of P22 over the parallelogram ([`polygon::mean_p22`]) over wm.z⁴ in the place of D.
+    ///
+    /// # Special cases
+    /// A footprint of a point → [`eval`](Self::eval); one that is not finite → 0, unless it is
+    /// [`clamped`](Footprint::clamped).
+    ///
+    /// # Example
+    /// ```
+    /// use microsurface::{Ggx, bsdf::RoughConductor, filter::Footprint, fresnel::Schlick, glam::{Vec2, Vec3}};
+    /// let chrome = RoughConductor::new(Ggx::isotropic(0.01_f32)?, Schlick::new(0.6_f32));
+    /// let (wi, wo) = (Vec3::new(0.6, 0.0, 0.8), Vec3::new(-0.57, 0.0, 0.8216447));
+    /// // The highlight is beside the centre of the pixel, and within it.
+    /// let pixel = Footprint::<f32>::new(Vec2::new(0.1, 0.0), Vec2::new(0.0, 0.1));
+    /// assert!(chrome.eval_over(wi, wo, &pixel) > 3.0 * chrome.eval(wi, wo));
+    /// # Ok::<(), microsurface::Error>(())
+    /// ```
+    ///
+    /// # References
+    /// Kaplanyan, Hill, Patney and Lefohn 2016, Eqs. 9–11.
+    #[must_use]
+    pub fn eval_over(
+        &self,
+        wi: <M::Scalar as Real>::Vec3,
+        wo: <M::Scalar as Real>::Vec3,
+        footprint: &Footprint<M::Scalar>,
+    ) -> F::Output {
+        let half = Half::<M::Scalar>::new(wi.into(), wo.into());
+        let [x, y, z] = half.h;
+        let [du, dv] = footprint.steps();
+        let mean = polygon::mean_p22(&self.surface, [-x / z, -y / z].into(), du, dv);
+        let secant2 = dot(half.h, half.h) / (z * z);
+        let f = Self::quarter() * (mean * secant2 * secant2) / self.masked_cosines(wi, wo);
+        // At the very horizon the mean is 0 and the secant may be infinite.
+        let f = if mean == M::Scalar::ZERO { mean } else { f };
+        self.fresnel.reflectance(M::Scalar::HALF * half.length).scaled(half.select(f))
     }
 }
 

@@ -1,8 +1,11 @@
 //! Means over parallelograms and rectangles against adaptive cubature.
 
+use microsurface::bsdf::RoughConductor;
+use microsurface::filter::Footprint;
 use microsurface::filter::polygon::{self, MeanOverParallelogram};
 use microsurface::filter::rectangle;
-use microsurface::glam::DVec2;
+use microsurface::fresnel::Schlick;
+use microsurface::glam::{DVec2, Vec2};
 use microsurface::map::Map;
 use microsurface::{Beckmann, Ggx, Gtr, Microsurface, Ndf, RoughnessMatrix};
 use rand::{RngExt, SeedableRng};
@@ -264,4 +267,53 @@ fn shares_of_polygons_add_up() {
     assert_eq!(polygon::integral_p22(&surface, &[DVec2::X]), 0.0);
     let nothing: f64 = polygon::integral_p22(&surface, &[DVec2::X, DVec2::Y]);
     assert!(nothing.abs() < 1e-16);
+}
+
+/// The BRDF over a footprint is the mean of BRDFs with the half vector moved, masks and Fresnel kept.
+#[test]
+fn the_brdf_over_a_footprint() {
+    let mut rng = Pcg64::seed_from_u64(10);
+    for i in 0..300 {
+        let surface = Ggx::from_roughness_matrix(RoughnessMatrix::rotated(0.02, 0.1, 0.3).unwrap());
+        let material = RoughConductor::new(surface, Schlick::new(0.5));
+        let [wi, wo] = [(); 2].map(|()| {
+            let z = between(&mut rng, 1e-3, 1.0);
+            turned(&mut rng, (1.0 - z * z).sqrt()).extend(z)
+        });
+        let [_, u, v] = footprint(&mut rng, i % 5).map(|t| 0.02 * t);
+        let wm = (wi + wo).normalize();
+        let slope = -wm.truncate() / wm.z;
+        let over = material.eval_over(wi, wo, &Footprint::<f64>::new(u, v));
+        let ratio = polygon::mean_p22(&surface, slope, u, v) / surface.p22(slope);
+        let expected = material.eval(wi, wo) * ratio;
+        assert!((over / expected - 1.0).abs() < 1e-9, "{wi} {wo} {over} {expected}");
+        let point = Footprint::<f64>::new(DVec2::ZERO, DVec2::ZERO);
+        assert!((material.eval_over(wi, wo, &point) / material.eval(wi, wo) - 1.0).abs() < 1e-11);
+        // Symmetric, and dark below the horizon.
+        let swapped = material.eval_over(wo, wi, &Footprint::<f64>::new(v, u));
+        assert!((over / swapped - 1.0).abs() < 1e-9);
+        assert_eq!(material.eval_over(-wi, wo, &point), 0.0);
+    }
+}
+
+#[test]
+fn the_brdf_over_any_footprint_is_a_number() {
+    let mut rng = Pcg64::seed_from_u64(11);
+    for i in 0..20_000 {
+        let alpha = between(&mut rng, 1e-6, 1.0) as f32;
+        let material = RoughConductor::new(Ggx::isotropic(alpha).unwrap(), Schlick::new(0.5_f32));
+        let [wi, wo] = [(); 2].map(|()| {
+            let z = between(&mut rng, 1e-30, 1.0);
+            turned(&mut rng, (1.0 - z * z).sqrt()).extend(z).as_vec3()
+        });
+        let [_, u, v] = footprint(&mut rng, i % 5);
+        let bad = [u.as_vec2(), Vec2::new(f32::INFINITY, 0.0), Vec2::new(f32::MAX, f32::MAX), Vec2::ZERO];
+        let footprint = Footprint::<f32>::new(bad[rng.random_range(0..4)], v.as_vec2());
+        for footprint in [footprint, footprint.clamped(1.0)] {
+            let f = material.eval_over(wi, wo, &footprint);
+            assert!(f >= 0.0, "{f} of alpha {alpha}, {wi} {wo} {footprint:?}");
+        }
+        let nan = Footprint::<f32>::new(Vec2::NAN, v.as_vec2());
+        assert!(material.eval_over(wi, wo, &nan.clamped(1.0)) >= 0.0);
+    }
 }
