@@ -180,6 +180,13 @@ impl<T: Real, const N: usize> FilteredGgx<T, N> {
         self.cores.iter().fold(tail, |sum, (weight, core)| sum + *weight * of_core(core))
     }
 
+    /// No facets fewer than those of a flat surface: the rounding of the weights and of their sum.
+    #[inline(always)]
+    fn at_least_cosine(w: T::Vec3, sigma: T) -> T {
+        let [_, _, z]: [T; 3] = w.into();
+        if sigma < z { z } else { sigma }
+    }
+
     /// The component that u falls on by these shares, and how far it falls into it; N is the tail.
     #[inline]
     fn choose(
@@ -223,12 +230,14 @@ impl<T: Real, const N: usize> Ndf for FilteredGgx<T, N> {
 
     #[inline(always)]
     fn sigma(&self, w: Vec3<Self>) -> T {
-        self.weighted(|tail| tail.sigma(w), |core| core.sigma(w))
+        let sigma = self.weighted(|tail| tail.sigma(w), |core| core.sigma(w));
+        Self::at_least_cosine(w, sigma)
     }
 
     #[inline(always)]
     fn sigma_above(&self, w: Vec3<Self>) -> T {
-        self.weighted(|tail| tail.sigma_above(w), |core| core.sigma_above(w))
+        let sigma = self.weighted(|tail| tail.sigma_above(w), |core| core.sigma_above(w));
+        Self::at_least_cosine(w, sigma)
     }
 
     #[inline(always)]

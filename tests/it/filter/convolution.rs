@@ -386,3 +386,37 @@ fn what_is_not_finite_is_refused_or_the_largest_kernel() {
     assert_eq!(point.clamped(1.0), point);
     assert_eq!(surface.filtered(point.covariance(0.25)).unwrap().p22(Vec2::ZERO), surface.p22(Vec2::ZERO));
 }
+
+/// Anything finite gives numbers, and every sample a density.
+#[test]
+fn the_mixture_is_sound_at_the_ends_of_the_domain() {
+    let mut rng = Pcg64Mcg::seed_from_u64(6);
+    for _ in 0..20_000 {
+        let alpha = [(); 2].map(|()| uniform(&mut rng, -13.0, 0.0).exp2() as f32);
+        let footprint = footprint(&mut rng).scaled(uniform(&mut rng, -20.0, 2.0).exp2());
+        let [du, dv] = footprint.steps().map(DVec2::as_vec2);
+        let kernel = Footprint::<f32>::new(du, dv).covariance(0.25);
+        let surface = Ggx::anisotropic(alpha[0], alpha[1]).unwrap();
+        let z = uniform(&mut rng, -40.0, 0.0).exp2() * if rng.random_bool(0.3) { -1.0 } else { 1.0 };
+        let w = (DVec2::from_angle(uniform(&mut rng, 0.0, 6.3)) * (1.0 - z * z).sqrt()).extend(z).as_vec3();
+        let corner = [0.0, 0.5, 1.0 - 2_f32.powi(-24), uniform(&mut rng, 0.0, 1.0) as f32];
+        let u = Vec2::new(corner[rng.random_range(0..4)], corner[rng.random_range(0..4)]);
+        let sound = |wm: microsurface::glam::Vec3, [d, vndf, g1, sigma]: [f32; 4]| {
+            assert!(
+                (wm.length() - 1.0).abs() < 1e-5 && w.dot(wm) > 0.0,
+                "{alpha:?} {kernel:?} {w} {u}: {wm}"
+            );
+            assert!(
+                d >= 0.0 && vndf > 0.0 && (0.0..=1.0).contains(&g1),
+                "{alpha:?} {kernel:?} {w} {u}: {d} {vndf} {g1}"
+            );
+            assert!(sigma >= w.z.max(0.0), "{alpha:?} {kernel:?} {w}: {sigma}");
+        };
+        let seven = gaussian::filtered(&surface, kernel).unwrap();
+        let wm = seven.sample_vndf(w, u);
+        sound(wm, [seven.d(wm), seven.vndf(w, wm), seven.g1(w, wm), seven.sigma(w)]);
+        let two = gaussian::filtered_by_two(&surface, kernel).unwrap();
+        let wm = two.sample_vndf(w, u);
+        sound(wm, [two.d(wm), two.vndf(w, wm), two.g1(w, wm), two.sigma(w)]);
+    }
+}

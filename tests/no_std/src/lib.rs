@@ -2,6 +2,7 @@
 #![no_std]
 
 use microsurface::bsdf::RoughConductor;
+use microsurface::filter::{Footprint, gaussian};
 use microsurface::fresnel::Dielectric;
 use microsurface::glam::{DVec2, DVec3, Vec2, Vec3};
 use microsurface::{Beckmann, Ggx, Gtr, Ndf, SampleNdf};
@@ -33,4 +34,14 @@ pub extern "C" fn beckmann_eval(alpha: f64) -> f64 {
 pub extern "C" fn gtr_masking(alpha: f64, gamma: f64) -> f64 {
     let Ok(surface) = Gtr::spline(alpha, gamma) else { return -1.0 };
     surface.g1(DVec3::new(0.6, 0.0, 0.8), surface.sample_d(DVec2::new(0.5, 0.5)))
+}
+
+/// A highlight over the footprint of a pixel, in f32, or −1.
+#[unsafe(no_mangle)]
+pub extern "C" fn ggx_over(alpha: f32, step: f32) -> f32 {
+    let (Ok(surface), Ok(fresnel)) = (Ggx::isotropic(alpha), Dielectric::new(1.5_f32)) else { return -1.0 };
+    let footprint = Footprint::<f32>::new(Vec2::new(step, 0.0), Vec2::new(0.0, step)).clamped(1.0);
+    let convolved = gaussian::filtered(&surface, footprint.covariance(0.25)).map_or(-1.0, |s| s.d(Vec3::Z));
+    let material = RoughConductor::new(surface, fresnel);
+    convolved + material.eval_over(Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.0, 0.6, 0.8), &footprint)
 }
