@@ -18,6 +18,7 @@ use criterion::{criterion_group, criterion_main};
 
 mod batch;
 mod distribution;
+mod filter;
 mod input;
 mod mask;
 mod reflection;
@@ -29,6 +30,7 @@ criterion_group! {
     config = criterion::Criterion::default()
         .warm_up_time(core::time::Duration::from_millis(300))
         .measurement_time(core::time::Duration::from_secs(1));
-    targets = distribution::bench, mask::bench, visible_normals::bench, reflection::bench, batch::bench
+    targets = distribution::bench, mask::bench, visible_normals::bench, reflection::bench, batch::bench,
+            filter::bench
 }
 criterion_main!(questions);

@@ -8,6 +8,7 @@ use microsurface::Real;
 use microsurface::fresnel::Spectrum;
 
 pub(crate) mod beckmann;
+pub(crate) mod filter;
 pub(crate) mod ggx;
 
 /// The functions of `std` that the textbook calls.
@@ -17,6 +18,8 @@ pub(crate) trait Elementary: Real + Spectrum<Scalar = Self> {
     fn acos(self) -> Self;
     fn exp(self) -> Self;
     fn powf(self, exponent: Self) -> Self;
+    fn atan(self) -> Self;
+    fn atan2(self, x: Self) -> Self;
 }
 
 macro_rules! elementary {
@@ -41,6 +44,14 @@ macro_rules! elementary {
             #[inline(always)]
             fn powf(self, exponent: Self) -> Self {
                 $t::powf(self, exponent)
+            }
+            #[inline(always)]
+            fn atan(self) -> Self {
+                $t::atan(self)
+            }
+            #[inline(always)]
+            fn atan2(self, x: Self) -> Self {
+                $t::atan2(self, x)
             }
         }
     )*};

@@ -60,7 +60,13 @@ pub(crate) fn run(effort: &Effort, out: &mut impl Write) -> io::Result<()> {
     let rows: Vec<Row> = errors
         .into_iter()
         .zip(times)
-        .map(|((name, scalar, errors), ns)| Row { name: name.into(), scalar, domain: (0.0, 0.0), ns, errors })
+        .map(|((name, scalar, errors), ns)| Row {
+            name: name.into(),
+            scalar,
+            domain: (0.0, 0.0),
+            ns: ns.map(Some),
+            errors,
+        })
         .collect();
     report(out, effort, "beckmann_mask", "Beckmann: G1", &rows)
 }

@@ -1,4 +1,4 @@
-//! Correct digits over the logarithm of the time, as SVG: a panel for each scalar.
+//! Correct digits over the logarithm of the time, as SVG: a panel for each scalar that has alternatives.
 
 use core::fmt::Write as _;
 
@@ -19,6 +19,8 @@ struct Axes {
     top: f64,
     fastest: f64,
     slowest: f64,
+    /// 0, or below where errors are larger than 1.
+    least_digits: f64,
     most_digits: f64,
 }
 
@@ -27,7 +29,9 @@ impl Axes {
         LEFT + (WIDTH - LEFT - RIGHT) * (ns / self.fastest).ln() / (self.slowest / self.fastest).ln()
     }
     fn y(&self, digits: f64) -> f64 {
-        self.top + PANEL - BOTTOM - (PANEL - TOP - BOTTOM) * digits / self.most_digits
+        self.top + PANEL
+            - BOTTOM
+            - (PANEL - TOP - BOTTOM) * (digits - self.least_digits) / (self.most_digits - self.least_digits)
     }
 }
 
@@ -46,31 +50,37 @@ impl Rectangle {
 /// Dots of calls are full, those of loops empty; those of alternatives made for less than the whole range are green. Lines
 /// are the frontiers of those made for all of it.
 pub(crate) fn chart(title: &str, caption: &str, rows: &[Row]) -> String {
-    let scalars = ["f32", "f64"].map(|scalar| rows.iter().filter(move |row| row.scalar == scalar));
-    let times = || rows.iter().flat_map(|row| row.ns);
+    let panels: Vec<(Vec<&Row>, f64)> = ["f32", "f64"]
+        .into_iter()
+        .zip([9.0, 18.0])
+        .map(|(scalar, most)| (rows.iter().filter(|row| row.scalar == scalar).collect(), most))
+        .filter(|(panel, _): &(Vec<&Row>, f64)| !panel.is_empty())
+        .collect();
+    let times = || rows.iter().flat_map(|row| row.ns).flatten();
+    let looped = rows.iter().any(|row| row.ns[1].is_some());
+    let least_digits = rows.iter().map(Row::digits).fold(0.0, f64::min);
+    let least_digits = 2.0 * (0.5 * least_digits).floor();
     let fastest = 2_f64.powf(times().fold(f64::INFINITY, f64::min).log2().floor());
     let slowest = 2_f64.powf(times().fold(0.0, f64::max).log2().ceil()).max(2.0 * fastest);
-    let height = 2.0 * PANEL + 30.0;
+    let height = panels.iter().map(|_| PANEL).sum::<f64>() + 30.0;
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" font-family=\"sans-serif\" \
          font-size=\"11\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
     );
-    for ((panel, top), most_digits) in scalars.into_iter().zip([0.0, PANEL]).zip([9.0, 18.0]) {
-        let panel: Vec<&Row> = panel.collect();
-        let Some(first) = panel.first() else { continue };
-        let axes = Axes { top, fastest, slowest, most_digits };
+    for ((panel, most_digits), top) in panels.iter().zip([0.0, PANEL]) {
+        let axes = Axes { top, fastest, slowest, least_digits, most_digits: *most_digits };
+        let times = if looped { "ns, a scalar call ● or in a loop ○" } else { "ns of a scalar call" };
         let _ = writeln!(
             svg,
-            "<text x=\"{LEFT}\" y=\"{:.0}\" font-size=\"15\">{title}, {}: correct digits over ns, a scalar call ● \
-             or in a loop ○</text>",
+            "<text x=\"{LEFT}\" y=\"{:.0}\" font-size=\"15\">{title}, {}: correct digits over {times}</text>",
             top + 30.0,
-            first.scalar
+            panel[0].scalar
         );
         grid(&mut svg, &axes);
         for time in [0, 1] {
-            frontier(&mut svg, &axes, rows, &panel, time);
+            frontier(&mut svg, &axes, rows, panel, time);
         }
-        dots(&mut svg, &axes, &panel);
+        dots(&mut svg, &axes, panel);
     }
     let _ =
         writeln!(svg, "<text x=\"{LEFT}\" y=\"{:.0}\" fill=\"gray\">{caption}</text>\n</svg>", height - 14.0);
@@ -84,7 +94,7 @@ fn grid(svg: &mut String, axes: &Axes) {
         let _ = writeln!(svg, "<path d=\"M{x1:.1} {y1:.1}L{x2:.1} {y2:.1}\" stroke=\"gray\" {style}/>");
     };
     let mut labels = Vec::new();
-    let mut digits = 0.0;
+    let mut digits = axes.least_digits;
     while digits < axes.most_digits {
         let y = axes.y(digits);
         line((left, y), (right, y), "stroke-opacity=\".3\"");
@@ -94,8 +104,8 @@ fn grid(svg: &mut String, axes: &Axes) {
     let mut tick = axes.fastest;
     while tick <= axes.slowest {
         let x = axes.x(tick);
-        line((x, axes.y(0.0)), (x, axes.y(axes.most_digits)), "stroke-opacity=\".3\"");
-        labels.push((x, axes.y(0.0) + 16.0, "middle", tick.to_string()));
+        line((x, axes.y(axes.least_digits)), (x, axes.y(axes.most_digits)), "stroke-opacity=\".3\"");
+        labels.push((x, axes.y(axes.least_digits) + 16.0, "middle", tick.to_string()));
         tick *= 2.0;
     }
     let epsilon = if axes.most_digits > 10.0 { f64::EPSILON } else { f32::EPSILON.into() };
@@ -116,13 +126,12 @@ fn whole(row: &Row, panel: &[&Row]) -> bool {
 }
 
 fn frontier(svg: &mut String, axes: &Axes, rows: &[Row], panel: &[&Row], time: usize) {
-    let mut frontier: Vec<_> =
-        panel.iter().filter(|row| whole(row, panel) && row.on_frontier(rows, time)).collect();
-    frontier.sort_by(|a, b| a.ns[time].total_cmp(&b.ns[time]));
-    let points: Vec<String> = frontier
-        .iter()
-        .map(|row| format!("{:.1},{:.1}", axes.x(row.ns[time]), axes.y(row.digits())))
-        .collect();
+    let frontier = panel.iter().filter(|row| whole(row, panel) && row.on_frontier(rows, time));
+    let mut frontier: Vec<(f64, f64)> =
+        frontier.filter_map(|row| Some((row.ns[time]?, row.digits()))).collect();
+    frontier.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let points: Vec<String> =
+        frontier.iter().map(|&(ns, digits)| format!("{:.1},{:.1}", axes.x(ns), axes.y(digits))).collect();
     let style = ["", "stroke-dasharray=\"3 2\""][time];
     let _ =
         writeln!(svg, "<polyline points=\"{}\" fill=\"none\" stroke=\"crimson\" {style}/>", points.join(" "));
@@ -131,16 +140,27 @@ fn frontier(svg: &mut String, axes: &Axes, rows: &[Row], panel: &[&Row], time: u
 /// A pair of dots a row, joined, and its name where it overlaps least with what is there.
 fn dots(svg: &mut String, axes: &Axes, panel: &[&Row]) {
     let mut taken: Vec<Rectangle> = Vec::new();
-    let positions: Vec<[f64; 3]> =
-        panel.iter().map(|row| [axes.x(row.ns[0]), axes.x(row.ns[1]), axes.y(row.digits())]).collect();
+    // Where there is no loop, its place is that of the call.
+    let positions: Vec<[f64; 3]> = panel
+        .iter()
+        .map(|row| {
+            let call = axes.x(row.ns[0].unwrap_or(axes.fastest));
+            [call, row.ns[1].map_or(call, |ns| axes.x(ns)), axes.y(row.digits())]
+        })
+        .collect();
     for (row, &[call, looped, y]) in panel.iter().zip(&positions) {
         let colour = if whole(row, panel) { "navy" } else { "seagreen" };
         let _ = writeln!(
             svg,
             "<path d=\"M{call:.1} {y:.1}H{looped:.1}\" stroke=\"{colour}\" stroke-opacity=\".35\"/>\
-             <circle cx=\"{call:.1}\" cy=\"{y:.1}\" r=\"4\" fill=\"{colour}\"/>\
-             <circle cx=\"{looped:.1}\" cy=\"{y:.1}\" r=\"3.5\" fill=\"white\" stroke=\"{colour}\"/>"
+             <circle cx=\"{call:.1}\" cy=\"{y:.1}\" r=\"4\" fill=\"{colour}\"/>"
         );
+        if row.ns[1].is_some() {
+            let _ = writeln!(
+                svg,
+                "<circle cx=\"{looped:.1}\" cy=\"{y:.1}\" r=\"3.5\" fill=\"white\" stroke=\"{colour}\"/>"
+            );
+        }
         taken.extend([call, looped].map(|x| Rectangle([x - 5.0, y - 5.0, 10.0, 10.0])));
     }
     for (row, &[call, looped, y]) in panel.iter().zip(&positions) {
@@ -155,7 +175,10 @@ fn dots(svg: &mut String, axes: &Axes, panel: &[&Row]) {
         let cost = |candidate| {
             let label = place(candidate);
             let Rectangle([x, top, ..]) = label;
-            let outside = x < LEFT || x + width > WIDTH || top < axes.top + TOP || top + LINE > axes.y(0.0);
+            let outside = x < LEFT
+                || x + width > WIDTH
+                || top < axes.top + TOP
+                || top + LINE > axes.y(axes.least_digits);
             let overlap: f64 = taken.iter().map(|&other| label.overlap(other)).sum();
             overlap + LINE * candidate.0.abs() + if outside { 1e4 } else { 0.0 }
         };

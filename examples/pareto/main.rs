@@ -1,14 +1,15 @@
-//! Time per call against worst error: what an approximation of a mask saves, and what it costs.
+//! Time per call against worst error: what an approximation of a mask or of a filter saves, and what it costs.
 //!
 //! ```text
-//! cargo run --release --example pareto                      # about half a minute
+//! cargo run --release --example pareto                      # about a minute
 //! cargo run --release --example pareto -- --quick           # coarse grids, rough times
 //! cargo run --release --example pareto -- --caption "CPU"   # a line below the charts
 //! ```
 //!
-//! Prints one Markdown table per question and writes it, as CSV and as an SVG chart, to `target/pareto/`. Errors are
-//! absolute differences of G1 from the f64 quadrature of [`reference`], at the very numbers the function was given, so
-//! that the rounding of an argument to f32 is nobody's error. Times, of scalar calls and of loops over slices, are
+//! Prints one Markdown table per question and writes it, as CSV and as an SVG chart, to `target/pareto/`. Errors of
+//! masks are absolute differences of G1 from the f64 quadrature of [`reference`], those of filters differences of P22 from
+//! that of [`filter`]'s as a share of the filtered peak: at the very numbers the function was given, so that the rounding
+//! of an argument to f32 is nobody's error. Times, of scalar calls and of loops over slices, are
 //! medians of rounds in which the alternatives take turns; only their ratios mean anything.
 
 use core::error::Error;
@@ -16,6 +17,7 @@ use std::io;
 
 mod beckmann;
 mod chart;
+mod filter;
 mod gtr;
 mod measure;
 mod reference;
@@ -27,6 +29,8 @@ pub(crate) struct Effort {
     pub(crate) angles: u32,
     /// Values of γ per unit.
     pub(crate) gammas: u32,
+    /// Pixels per size and shape of a footprint.
+    pub(crate) pixels: usize,
     /// Rounds of timing.
     pub(crate) rounds: usize,
     /// What stands below the charts.
@@ -47,13 +51,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     let effort = if quick {
-        Effort { angles: 120, gammas: 4, rounds: 20, caption }
+        Effort { angles: 120, gammas: 4, pixels: 3, rounds: 20, caption }
     } else {
-        Effort { angles: 600, gammas: 20, rounds: 300, caption }
+        Effort { angles: 600, gammas: 20, pixels: 40, rounds: 300, caption }
     };
     let mut out = io::stdout().lock();
     reference::validate(&mut out)?;
     beckmann::run(&effort, &mut out)?;
     gtr::run(&effort, &mut out)?;
+    filter::run(&effort, &mut out)?;
     Ok(())
 }

@@ -112,6 +112,16 @@ fn calls<T: Real, N: 'static>(materials: Vec<N>, call: impl Fn(&N, T::Vec3) -> T
     })
 }
 
+/// A run of scalar calls of arguments of any kind, whose results are opaque.
+pub(crate) fn calls_of<A: 'static, R>(arguments: Vec<A>, call: impl Fn(&A) -> R + 'static) -> Run {
+    let calls = u16::try_from(arguments.len()).unwrap_or(u16::MAX);
+    Run::new(calls, move || {
+        for argument in black_box(&arguments).iter().take(calls.into()) {
+            black_box(call(argument));
+        }
+    })
+}
+
 /// A run of loops as a user writes them over structures of arrays, which the compiler may make vector code of.
 fn loops<T: Real, N: 'static>(materials: Vec<N>, call: impl Fn(&N, T::Vec3) -> T + 'static) -> Run {
     let arrays: Vec<[T; 3]> = arguments::<T>().into_iter().map(Into::into).collect();

@@ -14,24 +14,26 @@ pub(crate) struct Row {
     pub(crate) scalar: &'static str,
     /// The range of the parameter that it is made for.
     pub(crate) domain: (f64, f64),
-    /// Nanoseconds of a scalar call, and per element of a loop over slices.
-    pub(crate) ns: [f64; 2],
+    /// Nanoseconds of a scalar call, and per element of a loop over slices where there is one.
+    pub(crate) ns: [Option<f64>; 2],
     pub(crate) errors: Errors,
 }
 
 impl Row {
-    /// Correct digits.
+    /// Correct digits: none where there was no number, negative ones of errors above 1.
     pub(crate) fn digits(&self) -> f64 {
-        -self.errors.worst.max(1e-17).log10()
+        let worst = self.errors.worst;
+        if worst.is_nan() { 0.0 } else { -worst.max(1e-17).log10() }
     }
 
     /// No other of the same scalar that is made for as much is both faster and more accurate.
     pub(crate) fn on_frontier(&self, rows: &[Row], time: usize) -> bool {
+        let Some(ns) = self.ns[time] else { return false };
         !rows.iter().any(|other| {
             other.scalar == self.scalar
                 && other.domain.0 <= self.domain.0
                 && other.domain.1 >= self.domain.1
-                && other.ns[time] < self.ns[time]
+                && other.ns[time].is_some_and(|other| other < ns)
                 && other.errors.worst < self.errors.worst
         })
     }
@@ -62,8 +64,11 @@ pub(crate) fn report(
     )?;
     for row in rows {
         let Errors { worst, at, .. } = &row.errors;
-        let (name, scalar, [call, looped], first) = (&row.name, row.scalar, row.ns, row.first(rows).ns);
-        let (ratio, loop_ratio, rms) = (call / first[0], looped / first[1], row.errors.rms());
+        let (name, scalar, first, rms) = (&row.name, row.scalar, row.first(rows).ns, row.errors.rms());
+        let [call, looped] = [0, 1].map(|time| match (row.ns[time], first[time]) {
+            (Some(ns), Some(first)) => format!("{ns:.2} | {:.2}", ns / first),
+            _ => "– | –".into(),
+        });
         let frontier = match [0, 1].map(|time| row.on_frontier(rows, time)) {
             [true, true] => "both",
             [true, false] => "calls",
@@ -72,7 +77,7 @@ pub(crate) fn report(
         };
         writeln!(
             out,
-            "| {name}, {scalar} | {call:.2} | {ratio:.2} | {looped:.2} | {loop_ratio:.2} | {worst:.2e} | {at} | \
+            "| {name}, {scalar} | {call} | {looped} | {worst:.2e} | {at} | \
              {rms:.1e} | {frontier} |"
         )?;
     }
@@ -81,11 +86,11 @@ pub(crate) fn report(
 
 fn csv(rows: &[Row]) -> String {
     let mut csv = String::from("name,scalar,from,to,ns,ns_in_loop,worst,at,rms\n");
-    for Row { name, scalar, domain: (from, to), ns: [call, looped], errors } in rows {
+    for Row { name, scalar, domain: (from, to), ns, errors } in rows {
         let Errors { worst, at, .. } = errors;
+        let [call, looped] = ns.map(|ns| ns.map_or(String::new(), |ns| format!("{ns:.3}")));
         let rms = errors.rms();
-        let _ =
-            writeln!(csv, "\"{name}\",{scalar},{from},{to},{call:.3},{looped:.3},{worst:e},\"{at}\",{rms:e}");
+        let _ = writeln!(csv, "\"{name}\",{scalar},{from},{to},{call},{looped},{worst:e},\"{at}\",{rms:e}");
     }
     csv
 }

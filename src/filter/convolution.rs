@@ -47,7 +47,7 @@ impl<P: ShapeInvariant, M: Map> Microsurface<P, M> {
     }
 
     /// The surface whose roughness matrix is A + factor·Σ.
-    #[inline]
+    #[inline(always)]
     pub(super) fn widened(
         &self,
         covariance: Covariance<M::Scalar>,

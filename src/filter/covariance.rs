@@ -108,7 +108,7 @@ impl<T: Real> Covariance<T> {
     }
 
     /// variance · (uᵀu + vᵀv).
-    #[inline]
+    #[inline(always)]
     pub(super) fn of_rows(u: [T; 2], v: [T; 2], variance: T) -> Self {
         let ([a, b], [c, d]) = (u.map(T::to_f64), v.map(T::to_f64));
         let s = variance.to_f64();
@@ -118,7 +118,7 @@ impl<T: Real> Covariance<T> {
     }
 
     /// Cholesky's factor; without variance along x, what is left is along y.
-    #[inline]
+    #[inline(always)]
     fn of(Gram { xx, xy, yy, root }: Gram) -> Self {
         let c11 = Real::sqrt(xx);
         if c11 > 0.0 {
@@ -129,7 +129,7 @@ impl<T: Real> Covariance<T> {
     }
 
     /// C, Σ = CᵀC.
-    #[inline]
+    #[inline(always)]
     pub(super) fn factor(&self) -> [f64; 3] {
         [self.c11, self.c12, self.c22].map(T::to_f64)
     }
@@ -240,27 +240,48 @@ impl<T: Real> Add for Covariance<T> {
     }
 }
 
-/// RᵀR + scale·CᵀC, of triangular factors.
+/// Sums a RᵀR + b CᵀC of two Gram matrices of triangular factors.
 ///
-/// With adj(R) the adjugate, det = (det R)² + scale (|adj(R)ᵀc₁|² + |adj(R)ᵀc₂|²) + scale² (det C)², c₁ and c₂ the
-/// rows of C: every term is positive.
-#[inline]
-pub(super) fn sum([r11, r12, r22]: [f64; 3], [c11, c12, c22]: [f64; 3], scale: f64) -> Gram {
-    let mixed = {
+/// With adj(R) the adjugate, det = a² (det R)² + a b (|adj(R)ᵀc₁|² + |adj(R)ᵀc₂|²) + b² (det C)², c₁ and c₂ the rows of C:
+/// every term is positive.
+#[derive(Clone, Copy)]
+pub(super) struct Sums {
+    /// xx, xy, yy.
+    of_r: [f64; 3],
+    of_c: [f64; 3],
+    /// Coefficients of a², a b, b².
+    determinant: [f64; 3],
+}
+
+impl Sums {
+    #[inline(always)]
+    pub(super) fn new([r11, r12, r22]: [f64; 3], [c11, c12, c22]: [f64; 3]) -> Self {
         let (a, b, c) = (r22 * c11, r11 * c12 - r12 * c11, r11 * c22);
-        a * a + b * b + c * c
-    };
-    let (det_r, det_c) = (r11 * r22, scale * (c11 * c22));
-    Gram {
-        xx: r11 * r11 + scale * (c11 * c11),
-        xy: r11 * r12 + scale * (c11 * c12),
-        yy: r12 * r12 + r22 * r22 + scale * (c12 * c12 + c22 * c22),
-        root: Real::sqrt(det_r * det_r + scale * mixed + det_c * det_c),
+        let (det_r, det_c) = (r11 * r22, c11 * c22);
+        Self {
+            of_r: [r11 * r11, r11 * r12, r12 * r12 + r22 * r22],
+            of_c: [c11 * c11, c11 * c12, c12 * c12 + c22 * c22],
+            determinant: [det_r * det_r, a * a + b * b + c * c, det_c * det_c],
+        }
+    }
+
+    /// a RᵀR + b CᵀC.
+    #[inline(always)]
+    pub(super) fn of(&self, a: f64, b: f64) -> Gram {
+        let [xx, xy, yy] = core::array::from_fn(|i| a * self.of_r[i] + b * self.of_c[i]);
+        let [det_r, mixed, det_c] = self.determinant;
+        Gram { xx, xy, yy, root: Real::sqrt(a * a * det_r + a * b * mixed + b * b * det_c) }
     }
 }
 
+/// RᵀR + scale·CᵀC, of triangular factors.
+#[inline(always)]
+pub(super) fn sum(r: [f64; 3], c: [f64; 3], scale: f64) -> Gram {
+    Sums::new(r, c).of(1.0, scale)
+}
+
 /// The inverse map of a surface as a triangular factor.
-#[inline]
+#[inline(always)]
 pub(super) fn factor<M: Map>(map: &M) -> [f64; 3] {
     let [[r11, r12], [_, r22]] = map.inverse().map(|row| row.map(Real::to_f64));
     [r11, r12, r22]

@@ -82,7 +82,7 @@ impl<T: Real> Footprint<T> {
     ///
     /// # References
     /// Kaplanyan et al. 2016, Eq. 13, whose outer product is misprinted; Tokuyoshi 2017, Eqs. 2 and 7.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn covariance(&self, variance: T) -> Covariance<T> {
         let [u, v] = self.rows();

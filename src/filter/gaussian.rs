@@ -25,8 +25,8 @@
 use crate::Real;
 use crate::elementary::exp;
 use crate::error::Error;
-use crate::filter::covariance::{Covariance, factor, seen_by_profile, sum};
-use crate::map::{Linear, Map};
+use crate::filter::covariance::{Covariance, Sums, factor, seen_by_profile};
+use crate::map::{Gram, Linear, Map};
 use crate::microsurface::Microsurface;
 use crate::ndf::{Ndf, SampleNdf, SampleVndf, Vec2, Vec3};
 use crate::profile::beckmann::Beckmann;
@@ -49,6 +49,7 @@ const CORES: [[f64; 2]; 5] = [
 /// 1 + k s, the Gaussian of what is left c (1 + s).
 ///
 /// Rational in √s, fitted to the convolution by `tests/reference/filter_gaussian.py`.
+#[inline(always)]
 fn widening(s: f64) -> (f64, f64) {
     let r = Real::sqrt(s);
     let k =
@@ -60,9 +61,13 @@ fn widening(s: f64) -> (f64, f64) {
 /// A mixture of one GGX and N Beckmann surfaces: a GGX convolved with a Gaussian.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FilteredGgx<T, const N: usize> {
-    tail: (T, Microsurface<Ggx, Linear<T>>),
-    cores: [(T, Microsurface<Beckmann, Linear<T>>); N],
+    tail: Tail<T>,
+    cores: [Core<T>; N],
 }
+
+/// A surface and its weight.
+type Tail<T> = (T, Microsurface<Ggx, Linear<T>>);
+type Core<T> = (T, Microsurface<Beckmann, Linear<T>>);
 
 /// GGX(A) ⊛ N(Σ) as a GGX and six Beckmann surfaces.
 ///
@@ -85,17 +90,21 @@ pub struct FilteredGgx<T, const N: usize> {
 /// assert!(surface.filtered(kernel)?.p22(far) > 5.0 * surface.p22(far));
 /// # Ok::<(), microsurface::Error>(())
 /// ```
+#[inline]
 pub fn filtered<M: Map>(
     surface: &Microsurface<Ggx, M>,
     covariance: Covariance<M::Scalar>,
 ) -> Result<FilteredGgx<M::Scalar, 6>, Error> {
-    let mixture = Mixture::new(surface, covariance);
-    let FilteredGgx { tail, cores: [rest] } = mixture.tail(TAIL, false)?;
-    let mut cores = [rest; 6];
-    for (core, [x, w]) in cores.iter_mut().zip(CORES) {
-        *core = (M::Scalar::lit(w), mixture.core(1.0 / x, 1.0, 1.0)?);
-    }
-    Ok(FilteredGgx { tail, cores })
+    let of_seven = || {
+        let mixture = Mixture::new(surface, covariance);
+        let (tail, rest) = mixture.tail(TAIL, false)?;
+        let mut cores = [rest; 6];
+        for (core, [x, w]) in cores.iter_mut().zip(CORES) {
+            *core = mixture.core(w, 1.0 / x, 1.0)?;
+        }
+        Some(FilteredGgx { tail, cores })
+    };
+    of_seven().ok_or_else(|| covariance.refused())
 }
 
 /// GGX(A) ⊛ N(Σ) as a GGX and one Beckmann surface: cheaper, exact at Σ = 0, best for kernels that are about as wide in
@@ -106,51 +115,59 @@ pub fn filtered<M: Map>(
 ///
 /// # Accuracy
 /// See the table of the [module](self).
+#[inline(always)]
 pub fn filtered_by_two<M: Map>(
     surface: &Microsurface<Ggx, M>,
     covariance: Covariance<M::Scalar>,
 ) -> Result<FilteredGgx<M::Scalar, 1>, Error> {
-    Mixture::new(surface, covariance).tail(1.0, true)
+    match Mixture::new(surface, covariance).tail(1.0, true) {
+        Some((tail, rest)) => Ok(FilteredGgx { tail, cores: [rest] }),
+        None => Err(covariance.refused()),
+    }
 }
 
-/// What the components are made of: factors of A and of Σ.
-struct Mixture<T> {
-    roughness: [f64; 3],
-    covariance: Covariance<T>,
+/// What the components are made of.
+struct Mixture {
+    /// a A + b Σ.
+    sums: Sums,
+    /// √det A.
+    area: f64,
 }
 
-impl<T: Real> Mixture<T> {
-    fn new<M: Map<Scalar = T>>(surface: &Microsurface<Ggx, M>, covariance: Covariance<T>) -> Self {
-        Self { roughness: factor(surface.map()), covariance }
+impl Mixture {
+    #[inline(always)]
+    fn new<M: Map>(surface: &Microsurface<Ggx, M>, covariance: Covariance<M::Scalar>) -> Self {
+        let roughness = factor(surface.map());
+        Self { sums: Sums::new(roughness, covariance.factor()), area: roughness[0] * roughness[2] }
     }
 
-    /// The map of a A + b 2Σ, and √det of it.
-    fn map(&self, a: f64, b: f64) -> Result<(Linear<T>, f64), Error> {
-        let root = Real::sqrt(a);
-        let gram = sum(self.roughness.map(|r| root * r), self.covariance.factor(), 2.0 * b);
-        let map = Linear::of_gram(gram).ok_or_else(|| self.covariance.refused())?;
-        Ok((map, gram.root))
+    /// a A + b 2Σ.
+    #[inline(always)]
+    fn matrix(&self, a: f64, b: f64) -> Gram {
+        self.sums.of(a, 2.0 * b)
     }
 
-    /// Beckmann(scale (a A + b 2Σ)).
-    fn core(&self, a: f64, b: f64, scale: f64) -> Result<Microsurface<Beckmann, Linear<T>>, Error> {
-        Ok(Microsurface::new(Beckmann, self.map(scale * a, scale * b)?.0))
+    /// Beckmann(a A + b 2Σ) of this weight.
+    #[inline(always)]
+    fn core<T: Real>(&self, weight: f64, a: f64, b: f64) -> Option<Core<T>> {
+        Some((T::lit(weight), Microsurface::new(Beckmann, Linear::of_gram(self.matrix(a, b))?)))
     }
 
     /// GGX(a A), of weight 1/a, filtered: what of it is still GGX, and the rest.
     ///
     /// What is still GGX is either widened as the kernel is, aA + k 2Σ, with the tail of GGX(A) on the mean of all directions;
     /// or a multiple of A, with its tail in every direction, but less like what is seen near the highlight.
-    fn tail(&self, a: f64, widened_by_kernel: bool) -> Result<FilteredGgx<T, 1>, Error> {
-        let of_a = self.roughness[0] * self.roughness[2];
-        let (_, filtered) = self.map(a, 1.0)?;
-        let (k, c) = widening(filtered / (a * of_a) - 1.0);
-        let (widened, area) = self.map(a, k)?;
-        let scale = area / of_a;
-        let map = if widened_by_kernel { widened } else { self.map(scale, 0.0)?.0 };
+    #[inline(always)]
+    fn tail<T: Real>(&self, a: f64, widened_by_kernel: bool) -> Option<(Tail<T>, Core<T>)> {
+        let before = a * self.area;
+        let (k, c) = widening(self.matrix(a, 1.0).root / before - 1.0);
+        let widened = self.matrix(a, k);
+        let scale = widened.root / self.area;
+        let matrix = if widened_by_kernel { widened } else { self.matrix(scale, 0.0) };
         let weight = 1.0 / scale;
-        let rest = (T::lit(1.0 / a - weight), self.core(a, 1.0, c)?);
-        Ok(FilteredGgx { tail: (T::lit(weight), Microsurface::new(Ggx, map)), cores: [rest] })
+        let tail = (T::lit(weight), Microsurface::new(Ggx, Linear::of_gram(matrix)?));
+        // Of a Σ of 0 nothing is left, up to rounding.
+        Some((tail, self.core((1.0 / a - weight).max(0.0), c * a, c)?))
     }
 }
 
@@ -292,6 +309,8 @@ pub fn p22<M: Map>(
     slope: Vec2<Microsurface<Ggx, M>>,
 ) -> M::Scalar {
     const STEP: f64 = 0.25;
+    /// e^STEP.
+    const RATIO: f64 = 1.2840254166877414841;
     // Where A is I: C R⁻¹ for C.
     let ([r11, r12, r22], [c11, c12, c22]) = (factor(surface.map()), covariance.factor());
     let (a, d) = (c11 / r11, c22 / r22);
@@ -302,15 +321,13 @@ pub fn p22<M: Map>(
     let adjoint = 2.0 * ((a * y - b * x) * (a * y - b * x) + (d * x) * (d * x));
     let t2 = x * x + y * y;
     // The integrand falls as x² below 1/(1 + t²) and as e^{−x} above 1.
-    let first = -20.0 - crate::elementary::ln(1.0 + t2);
+    let mut x = exp(-20.0) / (1.0 + t2);
     let mut sum = 0.0;
-    let mut log = first;
-    while log < 3.8 {
-        let x = exp(log);
+    while x < 45.0 {
         // det(1/x + 2Σ) and the exponent, both times x².
         let det = 1.0 + x * (trace + x * determinant);
         sum += x * x * exp(-x - (t2 + x * adjoint) * x / det) / Real::sqrt(det);
-        log += STEP;
+        x *= RATIO;
     }
     if !(t2.is_finite() && trace.is_finite()) {
         return M::Scalar::lit(0.0 * (t2 * trace));

@@ -84,7 +84,7 @@ pub fn filtered<M: Map>(
 ///
 /// # Errors
 /// [`Error::Covariance`] if Σ is not finite, or so large that det Σ is not.
-#[inline]
+#[inline(always)]
 pub fn filtered_by<M: Map>(
     surface: &Microsurface<Ggx, M>,
     covariance: Covariance<M::Scalar>,
@@ -98,7 +98,7 @@ pub fn filtered_by<M: Map>(
 ///
 /// With LLᵀ = I + CBCᵀ the update is DᵀD, D = L⁻¹CB. Its second row is a difference as Cholesky's method has it; from
 /// BJB = det B·J, J a quarter turn, it is c22 (b₂ + c11 det B·Jc₁)/√(K11 det K), with K = I + CBCᵀ and c₁ the first row of C.
-#[inline]
+#[inline(always)]
 fn convolved(r: [f64; 3], [c11, c12, c22]: [f64; 3]) -> Gram {
     let [r11, r12, r22] = r;
     let ([xx, xy, yy], det_b) = complement(r);

@@ -48,13 +48,13 @@ impl<T: Real> Linear<T> {
     }
 
     /// The map of this RᵀR, unless it is not finite or leaves the range of α.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn of_gram(gram: Gram) -> Option<Self> {
         gram.in_range::<T>().then(|| Self::triangular(gram))
     }
 
     /// The map of a positive definite RᵀR: Cholesky's factor.
-    #[inline]
+    #[inline(always)]
     fn triangular(Gram { xx, xy, root, .. }: Gram) -> Self {
         let r11 = Real::sqrt(xx);
         let [r11, r12, r22] = [r11, xy / r11, root / r11].map(T::lit);
@@ -62,7 +62,7 @@ impl<T: Real> Linear<T> {
     }
 
     /// What follows from the three stored numbers, rounded once.
-    #[inline]
+    #[inline(always)]
     fn stored(r11: T, r12: T, r22: T) -> Self {
         let [a, b, d] = [r11, r12, r22].map(T::to_f64);
         let root = Real::sqrt(a * d);
