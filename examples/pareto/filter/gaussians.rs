@@ -81,7 +81,7 @@ pub(super) fn run(effort: &Effort, out: &mut impl Write) -> io::Result<()> {
         let alpha = p.surface.map().alpha();
         let [large, small, _] = p.kernel.principal().map(|variance| variance.abs().sqrt() / alpha);
         let t = p.slope.length() / alpha;
-        format!("α = {alpha}, σ = {large:.2} α and {small:.2} α, |slope| = {t:.2} α")
+        format!("α = {alpha}, σ = {large:.2} α and {small:.2} α, at {t:.2} α")
     };
     let question =
         Question { file: "ggx_filter_gaussian", title: "GGX ⊛ Gaussian", sizes: &SIZES, shapes: &SHAPES };
