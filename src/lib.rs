@@ -84,6 +84,7 @@ extern crate std;
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+pub mod batch;
 pub mod bsdf;
 pub mod elementary;
 mod error;
