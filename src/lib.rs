@@ -42,6 +42,7 @@
 //! | a distribution of your own | implement [`Ndf`]; moved by [`transform::Transformed`] |
 //! | α from an artist's roughness | [`roughness`] |
 //! | reflection | [`bsdf::RoughConductor`] with a [`fresnel`] term |
+//! | many directions at once | [`batch`] |
 //! | GTR sampled as in its papers | [`bsdf::UniformMixture`] |
 //!
 //! # Conventions
@@ -65,7 +66,7 @@
 //!
 //! # Numbers
 //! Constructors check and return [`Error`], which names the value; there is no silent clamp ([`roughness::clamped`] is
-//! the explicit one). Evaluation never panics, allocates or fails: NaN gives NaN, and every function says what it
+//! the explicit one). Evaluation never panics, allocates or fails (a [`batch`] panics where its slices differ in length): NaN gives NaN, and every function says what it
 //! returns at the ends of its domain. Each function's accuracy is stated in units of ε, measured against 50-digit
 //! values, and tested from both sides: tests fail when a stated bound is exceeded and when it is twice too wide.
 //!

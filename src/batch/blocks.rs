@@ -112,13 +112,12 @@ impl<'a, S: Copy> Source for &'a [S] {
         'a: 'b,
     {
         let rest = &self[start..];
-        match rest.first_chunk() {
-            Some(full) => full,
-            None => {
-                let pad = pad.insert([rest[0]; BLOCK]);
-                pad[..rest.len()].copy_from_slice(rest);
-                pad
-            }
+        if let Some(full) = rest.first_chunk() {
+            full
+        } else {
+            let pad = pad.insert([rest[0]; BLOCK]);
+            pad[..rest.len()].copy_from_slice(rest);
+            pad
         }
     }
     #[inline(always)]

@@ -6,17 +6,17 @@ use crate::bsdf::{NormalSampling, RoughConductor};
 use crate::fresnel::{Fresnel, Spectrum};
 use crate::ndf::Ndf;
 
+/// A direction, a weight and a density, as [`Samples`] stores them.
+type Sampled<T, S> = ((T, T, T), S, T);
+
 /// A BSDF of reflection by its scalar methods, as batches see it. Sealed: [`RoughConductor`].
 pub trait Reflection: Material {
     type Scalar: crate::Real;
     type Spectrum: Spectrum<Scalar = Self::Scalar>;
     fn eval_of(&self, wi: [Self::Scalar; 3], wo: [Self::Scalar; 3]) -> Self::Spectrum;
     fn pdf_of(&self, wi: [Self::Scalar; 3], wo: [Self::Scalar; 3]) -> Self::Scalar;
-    fn sample_of(
-        &self,
-        wo: [Self::Scalar; 3],
-        u: [Self::Scalar; 2],
-    ) -> ((Self::Scalar, Self::Scalar, Self::Scalar), Self::Spectrum, Self::Scalar);
+    fn sample_of(&self, wo: [Self::Scalar; 3], u: [Self::Scalar; 2])
+    -> Sampled<Self::Scalar, Self::Spectrum>;
 }
 
 impl<N, F, S> Reflection for RoughConductor<N, F, S>
@@ -37,11 +37,7 @@ where
         self.pdf(wi.into(), wo.into())
     }
     #[inline(always)]
-    fn sample_of(
-        &self,
-        wo: [N::Scalar; 3],
-        u: [N::Scalar; 2],
-    ) -> ((N::Scalar, N::Scalar, N::Scalar), F::Output, N::Scalar) {
+    fn sample_of(&self, wo: [N::Scalar; 3], u: [N::Scalar; 2]) -> Sampled<N::Scalar, F::Output> {
         let sample = self.sample_or_nothing(wo.into(), u.into());
         let wi: [N::Scalar; 3] = sample.wi.into();
         (wi.into(), sample.weight, sample.pdf)
@@ -81,7 +77,7 @@ impl<R: Reflection> Body<R, (Vec3<R>, Vec3<R>)> for EvalAndPdf {
 }
 
 impl<R: Reflection> Body<R, (Vec3<R>, Vec2<R>)> for Sample {
-    type Out = ((R::Scalar, R::Scalar, R::Scalar), R::Spectrum, R::Scalar);
+    type Out = Sampled<R::Scalar, R::Spectrum>;
     #[inline(always)]
     fn of(&self, brdf: &R, (wo, u): (Vec3<R>, Vec2<R>)) -> Self::Out {
         brdf.sample_of(wo, u)

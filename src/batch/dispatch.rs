@@ -39,6 +39,7 @@ mod fixed {
         Level::Target
     }
 
+    #[expect(clippy::must_use_candidate, reason = "called for its effect")]
     pub fn limit_to(_: Level) -> Level {
         Level::Target
     }
@@ -81,6 +82,7 @@ mod x86 {
 
     /// Limits all batches of the process to a level, for tests and measurements; what the processor does not have is
     /// not used. Returns the level in use from here on.
+    #[expect(clippy::must_use_candidate, reason = "called for its effect")]
     pub fn limit_to(limit: Level) -> Level {
         set(limit.min(highest()))
     }

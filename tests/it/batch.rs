@@ -1,6 +1,7 @@
 //! Batches against the scalar calls, bit by bit, at every level of the instruction set that this machine has.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use core::panic::AssertUnwindSafe;
+use std::panic::catch_unwind;
 
 use microsurface::batch::dispatch::{Level, highest, level, limit_to};
 use microsurface::batch::{
@@ -269,25 +270,26 @@ fn every_entry_point_is_the_scalar_call_at_every_level() {
     assert_eq!(limit_to(highest()), highest());
 }
 
+/// Not `Copy`.
+struct Table(Vec<microsurface::Microsurface<Ggx, microsurface::Isotropic<f32>>>);
+impl Ndf for Table {
+    type Scalar = f32;
+    fn d(&self, wm: Vec3) -> f32 {
+        self.0[1].d(wm)
+    }
+    fn sigma(&self, w: Vec3) -> f32 {
+        self.0[1].sigma(w)
+    }
+    fn lambda(&self, w: Vec3) -> f32 {
+        self.0[1].lambda(w)
+    }
+}
+
 #[test]
 fn spectra_of_three_and_borrowed_distributions() {
     let gold = Conductor::new(Vec3::new(0.14, 0.43, 1.38), Vec3::new(3.697, 2.455, 1.914)).unwrap();
     let surfaces = [0.2_f32, 0.05].map(|alpha| Ggx::isotropic(alpha).unwrap());
     one(surfaces.map(|surface| RoughConductor::new(surface, gold)), |m, len, at| reflects(m, len, at));
-    /// Not `Copy`.
-    struct Table(Vec<microsurface::Microsurface<Ggx, microsurface::Isotropic<f32>>>);
-    impl Ndf for Table {
-        type Scalar = f32;
-        fn d(&self, wm: Vec3) -> f32 {
-            self.0[1].d(wm)
-        }
-        fn sigma(&self, w: Vec3) -> f32 {
-            self.0[1].sigma(w)
-        }
-        fn lambda(&self, w: Vec3) -> f32 {
-            self.0[1].lambda(w)
-        }
-    }
     let table = Table(surfaces.to_vec());
     let a = Arguments::<f32>::new(LONGEST, 5);
     let (mut one, mut other) = ([0.0; LONGEST], [0.0; LONGEST]);

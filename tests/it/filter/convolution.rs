@@ -182,7 +182,7 @@ fn the_mixture_is_a_surface() {
     }
     // All samples are visible, and their means are those of the components by what is seen of each.
     let w = DVec3::new(0.36, 0.93, 0.07).normalize();
-    let (n, m) = (100, 2000);
+    let (n, m) = (100_usize, 2000);
     let means = |sample: &dyn Fn(DVec2) -> DVec3| {
         let mut sums = [DVec3::ZERO; 2];
         for i in 0..n * m {
