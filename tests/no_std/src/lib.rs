@@ -1,6 +1,7 @@
 //! Proof that microsurface links without std: a panic handler of its own, which std would duplicate.
 #![no_std]
 
+use microsurface::batch::{Directions, NdfBatch};
 use microsurface::bsdf::RoughConductor;
 use microsurface::fresnel::Dielectric;
 use microsurface::glam::{DVec2, DVec3, Vec2, Vec3};
@@ -33,4 +34,13 @@ pub extern "C" fn beckmann_eval(alpha: f64) -> f64 {
 pub extern "C" fn gtr_masking(alpha: f64, gamma: f64) -> f64 {
     let Ok(surface) = Gtr::spline(alpha, gamma) else { return -1.0 };
     surface.g1(DVec3::new(0.6, 0.0, 0.8), surface.sample_d(DVec2::new(0.5, 0.5)))
+}
+
+/// D of Beckmann of one direction, as a batch, or −1.
+#[unsafe(no_mangle)]
+pub extern "C" fn batch_d(alpha: f32) -> f32 {
+    let Ok(surface) = Beckmann::isotropic(alpha) else { return -1.0 };
+    let mut d = [0.0; 1];
+    surface.d_batch(Directions { x: &[0.6], y: &[0.0], z: &[0.8] }, &mut d);
+    d[0]
 }
