@@ -3,6 +3,8 @@
 //! A block is a local array, so that the compiler knows without asking at run time that nothing it writes is read again,
 //! however many slices take part.
 
+use core::borrow::Borrow;
+
 use crate::batch::{Directions, DirectionsMut, Numbers, Samples};
 
 /// Elements in a block: a multiple of the lanes of any vectors, several times over, and few enough for a dozen arrays to
@@ -51,9 +53,9 @@ pub trait Sink {
 
 /// `body` of every element.
 #[inline(always)]
-pub(super) fn each<P: Source, B: Body<M, I::Item, Out = O::Item>, M, I: Source, O: Sink>(
+pub(super) fn each<P: Source, B: Body<M, I::Item, Out = O::Item>, M, R: Borrow<M>, I: Source, O: Sink>(
     materials: P,
-    material: impl Fn(P::Item) -> M,
+    material: impl Fn(P::Item) -> R,
     body: &B,
     input: I,
     mut output: O,
@@ -67,7 +69,7 @@ pub(super) fn each<P: Source, B: Body<M, I::Item, Out = O::Item>, M, I: Source, 
         let arguments = input.block(start, &mut pad);
         for lane in 0..BLOCK {
             let material = material(P::item(of, lane));
-            O::put(&mut results, lane, body.of(&material, I::item(arguments, lane)));
+            O::put(&mut results, lane, body.of(material.borrow(), I::item(arguments, lane)));
         }
         output.write(start, &results);
         start += BLOCK;

@@ -96,7 +96,7 @@ struct Same<'a, M, B, I, O> {
 impl<M: Material, B: Body<M, I::Item, Out = O::Item>, I: Source, O: Sink> Same<'_, M, B, I, O> {
     #[inline(always)]
     fn all(self, material: M) {
-        each((), |()| material, &self.body, self.input, self.output);
+        each((), |()| &material, &self.body, self.input, self.output);
     }
 }
 
