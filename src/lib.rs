@@ -43,6 +43,7 @@
 //! | α from an artist's roughness | [`roughness`] |
 //! | highlights that do not shimmer | [`filter`] |
 //! | reflection | [`bsdf::RoughConductor`] with a [`fresnel`] term |
+//! | many directions at once | [`batch`] |
 //! | GTR sampled as in its papers | [`bsdf::UniformMixture`] |
 //!
 //! # Conventions
@@ -66,7 +67,7 @@
 //!
 //! # Numbers
 //! Constructors check and return [`Error`], which names the value; there is no silent clamp ([`roughness::clamped`] is
-//! the explicit one). Evaluation never panics, allocates or fails: NaN gives NaN, and every function says what it
+//! the explicit one). Evaluation never panics, allocates or fails (a [`batch`] panics where its slices differ in length): NaN gives NaN, and every function says what it
 //! returns at the ends of its domain. Each function's accuracy is stated in units of ε, measured against 50-digit
 //! values, and tested from both sides: tests fail when a stated bound is exceeded and when it is twice too wide.
 //!
@@ -85,6 +86,7 @@ extern crate std;
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+pub mod batch;
 pub mod bsdf;
 pub mod elementary;
 mod error;

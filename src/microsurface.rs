@@ -147,6 +147,16 @@ impl<P: Profile<M::Scalar>, M: Map> Ndf for Microsurface<P, M> {
         let lambda = self.profile.lambda(&self.map, [x, y, z.abs()]);
         if z < M::Scalar::ZERO { -M::Scalar::ONE - lambda } else { lambda }
     }
+
+    #[inline(always)]
+    fn form(&self) -> usize {
+        self.profile.form()
+    }
+
+    #[inline(always)]
+    fn with_form(self, form: usize) -> Self {
+        Self { profile: self.profile.with_form(form), map: self.map }
+    }
 }
 
 impl<P: SampleProfile<M::Scalar>, M: Map> SampleNdf for Microsurface<P, M> {

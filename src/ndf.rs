@@ -176,6 +176,26 @@ pub trait Ndf {
         let density = positive_part(dot(w.into(), wm.into())) * self.d(wm) / sigma;
         if sigma <= Self::Scalar::ZERO { Self::Scalar::ZERO } else { density }
     }
+
+    /// Which of its forms the numbers of this distribution take, where one branch on what never changes chooses between
+    /// several: a [`batch`](crate::batch) takes the branch once, out of its loop.
+    ///
+    /// # Returns
+    /// 0 where there is only one.
+    #[inline(always)]
+    fn form(&self) -> usize {
+        0
+    }
+
+    /// The same, with the compiler told the number that [`form`](Self::form) gives. Any other gives meaningless numbers.
+    #[inline(always)]
+    #[must_use]
+    fn with_form(self, _form: usize) -> Self
+    where
+        Self: Sized,
+    {
+        self
+    }
 }
 
 /// 2⁴⁰ (f32) or 2²⁷⁰ (f64).
@@ -221,4 +241,67 @@ pub trait SampleVndf: Ndf {
     /// # Returns
     /// A unit vector with z ≥ 0 and w·wm > 0.
     fn sample_vndf(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self>;
+}
+
+/// A borrowed distribution is one: for materials that share a large one, and for batches of one that is not `Copy`.
+impl<N: Ndf + ?Sized> Ndf for &N {
+    type Scalar = N::Scalar;
+    #[inline(always)]
+    fn d(&self, wm: Vec3<N>) -> N::Scalar {
+        (**self).d(wm)
+    }
+    #[inline(always)]
+    fn sigma(&self, w: Vec3<N>) -> N::Scalar {
+        (**self).sigma(w)
+    }
+    #[inline(always)]
+    fn lambda(&self, w: Vec3<N>) -> N::Scalar {
+        (**self).lambda(w)
+    }
+    #[inline(always)]
+    fn sigma_above(&self, w: Vec3<N>) -> N::Scalar {
+        (**self).sigma_above(w)
+    }
+    #[inline(always)]
+    fn d_along(&self, h: Vec3<N>) -> N::Scalar {
+        (**self).d_along(h)
+    }
+    #[inline(always)]
+    fn p22(&self, slope: Vec2<N>) -> N::Scalar {
+        (**self).p22(slope)
+    }
+    #[inline(always)]
+    fn g1(&self, w: Vec3<N>, wm: Vec3<N>) -> N::Scalar {
+        (**self).g1(w, wm)
+    }
+    #[inline(always)]
+    fn g2(&self, wi: Vec3<N>, wo: Vec3<N>, wm: Vec3<N>) -> N::Scalar {
+        (**self).g2(wi, wo, wm)
+    }
+    #[inline(always)]
+    fn g2_separable(&self, wi: Vec3<N>, wo: Vec3<N>, wm: Vec3<N>) -> N::Scalar {
+        (**self).g2_separable(wi, wo, wm)
+    }
+    #[inline(always)]
+    fn vndf(&self, w: Vec3<N>, wm: Vec3<N>) -> N::Scalar {
+        (**self).vndf(w, wm)
+    }
+}
+
+impl<N: SampleNdf + ?Sized> SampleNdf for &N {
+    #[inline(always)]
+    fn sample_d(&self, u: Vec2<N>) -> Vec3<N> {
+        (**self).sample_d(u)
+    }
+    #[inline(always)]
+    fn pdf_d(&self, wm: Vec3<N>) -> N::Scalar {
+        (**self).pdf_d(wm)
+    }
+}
+
+impl<N: SampleVndf + ?Sized> SampleVndf for &N {
+    #[inline(always)]
+    fn sample_vndf(&self, w: Vec3<N>, u: Vec2<N>) -> Vec3<N> {
+        (**self).sample_vndf(w, u)
+    }
 }

@@ -44,6 +44,19 @@ pub trait Profile<T: Real>: Copy {
     fn lambda<M: Map<Scalar = T>>(&self, map: &M, w: [T; 3]) -> T {
         self.sigma_backfacing(map.direction_term(w), w[2]) / w[2]
     }
+
+    /// See [`Ndf::form`](crate::Ndf::form).
+    #[inline(always)]
+    fn form(&self) -> usize {
+        0
+    }
+
+    /// See [`Ndf::with_form`](crate::Ndf::with_form).
+    #[inline(always)]
+    #[must_use]
+    fn with_form(self, _form: usize) -> Self {
+        self
+    }
 }
 
 /// A profile without parameters of its own, whose width is the map's: filtering it is another map.

@@ -5,6 +5,8 @@
 //! that it stays scalar, and the textbook's form in the same loop. What the compiler makes of them depends on the
 //! target: compare with `RUSTFLAGS="-C target-cpu=native"`.
 
+mod entry;
+
 use core::cell::RefCell;
 use core::hint::black_box;
 
@@ -168,6 +170,8 @@ pub(crate) fn bench(criterion: &mut Criterion) {
         scalar::<f64>(criterion, n);
         gtr::<f32>(criterion, n);
         gtr::<f64>(criterion, n);
+        entry::bench::<f32>(criterion, n);
+        entry::bench::<f64>(criterion, n);
     }
 }
 

@@ -118,7 +118,7 @@ impl Alternative {
 fn few<N: Clone>(materials: &[N]) -> Vec<N> {
     let most = (24 * 1024 / size_of::<N>()).clamp(1, 28);
     let mut stride = materials.len().div_ceil(most).max(1);
-    if stride % ALPHAS.len() == 0 {
+    if stride.is_multiple_of(ALPHAS.len()) {
         stride += 1;
     }
     let stride = if materials.len() <= most { 1 } else { stride };

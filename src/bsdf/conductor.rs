@@ -76,6 +76,15 @@ impl<N, F, S> RoughConductor<N, F, S> {
         &self.surface
     }
 
+    /// The same with its surface in a known form; see [`Ndf::with_form`].
+    #[inline(always)]
+    pub(crate) fn with_surface_form(self, form: usize) -> Self
+    where
+        N: Ndf,
+    {
+        Self { surface: self.surface.with_form(form), ..self }
+    }
+
     /// The Fresnel term.
     #[inline]
     #[must_use]
@@ -229,6 +238,21 @@ where
     #[inline(always)]
     #[must_use]
     pub fn sample(&self, wo: Vec3<N>, u: Vec2<N>) -> Option<Sample<N::Scalar, F::Output>> {
+        let (up, sample) = self.sampled(wo, u);
+        if up { Some(sample) } else { None }
+    }
+
+    /// The same with weight and density 0 in place of `None`, and a wi of no meaning.
+    #[inline(always)]
+    pub(crate) fn sample_or_nothing(&self, wo: Vec3<N>, u: Vec2<N>) -> Sample<N::Scalar, F::Output> {
+        let (up, Sample { wi, weight, pdf }) = self.sampled(wo, u);
+        let select = |value| if up { value } else { N::Scalar::ZERO };
+        Sample { wi, weight: weight.map(select), pdf: select(pdf) }
+    }
+
+    /// Whether anything is reflected, and the sample, which is meaningless where nothing is.
+    #[inline(always)]
+    fn sampled(&self, wo: Vec3<N>, u: Vec2<N>) -> (bool, Sample<N::Scalar, F::Output>) {
         let o: [N::Scalar; 3] = wo.into();
         let wm = self.sampling.sample(&self.surface, wo, u);
         let m: [N::Scalar; 3] = wm.into();
@@ -236,9 +260,6 @@ where
         let wi = reflected::<N::Scalar>(wo, wm);
         let i: [N::Scalar; 3] = wi.into();
         let up = o[2] > N::Scalar::ZERO && i[2] > N::Scalar::ZERO && wo_wm > N::Scalar::ZERO;
-        if !up {
-            return None;
-        }
         let of_normals = self.sampling.density_over_d(self.surface.sigma_above(wo), wo_wm, m[2]);
         let (d, masked) = (self.surface.d(wm), self.masked_cosines(wi, wo));
         let (pdf, weight) = match self.sampling.constant_density() {
@@ -249,6 +270,6 @@ where
                 (pdf, Self::quarter() * i[2] * (d / pdf) / masked)
             }
         };
-        Some(Sample { wi, weight: self.fresnel.reflectance(wo_wm).scaled(weight), pdf })
+        (up, Sample { wi, weight: self.fresnel.reflectance(wo_wm).scaled(weight), pdf })
     }
 }

@@ -3,7 +3,7 @@
 //! In the middle x = p·R(−ln(1 − p²)); in the tails, with q = erfc x the smaller side, x = R(√(−ln q)). The arithmetic of
 //! the intervals is the same, so that only coefficients are selected, not results.
 
-use super::kernel::{ErfInv, polynomial_of};
+use super::kernel::polynomial_of;
 use super::{ln, ln_wide};
 use crate::real::Real;
 
@@ -18,15 +18,17 @@ fn inverse<T: Real, W: Real>(p: W, q: W, ln: impl Fn(W) -> W) -> W {
     let near = r < W::lit(b.end);
     let v = if near { r - W::lit(b.shift) } else { r - W::lit(c.shift) };
     let v = if central { w } else { v };
-    let pick = |table: fn(&ErfInv) -> &'static [f64]| {
-        let (a, b, c) = (table(&a), table(&b), table(&c));
-        polynomial_of(v, a.len(), |i| {
-            let tail = if near { W::lit(b[i]) } else { W::lit(c[i]) };
-            if central { W::lit(a[i]) } else { tail }
-        })
-    };
-    let num = pick(|i| i.num) * if central { p } else { W::ONE };
-    num / pick(|i| i.den)
+    let num = selected(v, near, central, [a.num, b.num, c.num]) * if central { p } else { W::ONE };
+    num / selected(v, near, central, [a.den, b.den, c.den])
+}
+
+/// The polynomial of one of three intervals.
+#[inline(always)]
+fn selected<W: Real>(v: W, near: bool, central: bool, [a, b, c]: [&'static [f64]; 3]) -> W {
+    polynomial_of(v, a.len(), |i| {
+        let tail = if near { W::lit(b[i]) } else { W::lit(c[i]) };
+        if central { W::lit(a[i]) } else { tail }
+    })
 }
 
 /// The inverse from both sides: erfc⁻¹ q for 0 ≤ q ≤ 2.
@@ -42,7 +44,7 @@ fn inverse_of_complement<T: Real, W: Real>(q: W, ln: impl Fn(W) -> W) -> W {
 
 /// [`erfc_inv`] to the digits of `T`, computed in the wide scalar: the error is that of the fit, which is smooth, and
 /// so the result, rounded to `T`, is monotone ulp by ulp. Samplers want that.
-#[inline]
+#[inline(always)]
 pub(crate) fn erfc_inv_wide<T: Real>(q: T::Wide) -> T::Wide {
     inverse_of_complement::<T, T::Wide>(q, ln_wide::<T>)
 }

@@ -100,7 +100,7 @@ pub(crate) fn polynomial<T: Real>(x: T, c: &[f64]) -> T {
 pub(super) fn polynomial_of<T: Real>(x: T, len: usize, c: impl Fn(usize) -> T) -> T {
     let y = x * x;
     let (mut even, mut odd) = (c(len - 1), c(len - 2));
-    if len % 2 == 0 {
+    if len.is_multiple_of(2) {
         (even, odd) = (odd, even);
     }
     for i in (0..len - 2).rev() {

@@ -136,6 +136,19 @@ pub trait Masking<T: Real>: Copy {
 
     /// z Λ = σ_P(s², −z) for z ≥ 0, without cancellation.
     fn sigma_backfacing(&self, s2: T, z: T) -> T;
+
+    /// See [`Ndf::form`](crate::Ndf::form).
+    #[inline(always)]
+    fn form(&self) -> usize {
+        0
+    }
+
+    /// See [`Ndf::with_form`](crate::Ndf::with_form).
+    #[inline(always)]
+    #[must_use]
+    fn with_form(self, _form: usize) -> Self {
+        self
+    }
 }
 
 impl<T: Real, K: Masking<T>> Profile<T> for Gtr<T, K> {
@@ -154,6 +167,16 @@ impl<T: Real, K: Masking<T>> Profile<T> for Gtr<T, K> {
     #[inline(always)]
     fn sigma_backfacing(&self, s2: T, z: T) -> T {
         self.masking.sigma_backfacing(s2, z)
+    }
+
+    #[inline(always)]
+    fn form(&self) -> usize {
+        self.masking.form()
+    }
+
+    #[inline(always)]
+    fn with_form(self, form: usize) -> Self {
+        Self { density: self.density, masking: self.masking.with_form(form) }
     }
 }
 

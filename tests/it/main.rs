@@ -12,6 +12,7 @@
 mod accuracy;
 mod approximations;
 mod bad_input;
+mod batch;
 mod elementary;
 mod filter;
 mod hammer;

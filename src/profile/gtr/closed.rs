@@ -58,7 +58,7 @@ impl<T: Real, const G: u8> Masking<T> for Closed<T, G> {
     #[inline(always)]
     fn root_of_power(n: T::Wide, d: T::Wide, _: T) -> T {
         let inverse = d / n;
-        let mut power = if G % 2 == 0 { T::Wide::ONE } else { inverse.sqrt() };
+        let mut power = if G.is_multiple_of(2) { T::Wide::ONE } else { inverse.sqrt() };
         for _ in 0..G / 2 {
             power *= inverse;
         }

@@ -48,6 +48,16 @@ impl<T: Real, const N: usize> Masking<T> for Mixture<T, N> {
     fn sigma_backfacing(&self, s2: T, z: T) -> T {
         self.nodes.sigma_backfacing(s2, z)
     }
+
+    #[inline(always)]
+    fn form(&self) -> usize {
+        self.nodes.form()
+    }
+
+    #[inline(always)]
+    fn with_form(self, form: usize) -> Self {
+        Self { nodes: self.nodes.with_form(form), components: self.components }
+    }
 }
 
 impl<T: Real, const N: usize> VisibleMasking<T> for Mixture<T, N> {

@@ -96,8 +96,11 @@ impl<T: Real, const N: usize> GgxNodes<T, N> {
 
 /// The sum over the nodes, by halves: nodes may be lanes.
 #[inline(always)]
-fn sum<T: Real, const N: usize>(term: impl FnMut(usize) -> T) -> T {
-    let mut terms: [T; N] = core::array::from_fn(term);
+fn sum<T: Real, const N: usize>(mut term: impl FnMut(usize) -> T) -> T {
+    let mut terms = [T::ZERO; N];
+    for (j, slot) in terms.iter_mut().enumerate() {
+        *slot = term(j);
+    }
     let mut width = N;
     while width > 1 {
         let half = width.div_ceil(2);
@@ -203,6 +206,16 @@ impl<T: Real, const N: usize> Masking<T> for Nodes<T, N> {
             2 => self.backfacing(2, s2, z),
             n => self.backfacing(n, s2, z),
         }
+    }
+
+    #[inline(always)]
+    fn form(&self) -> usize {
+        self.degree
+    }
+
+    #[inline(always)]
+    fn with_form(self, form: usize) -> Self {
+        Self { degree: form, ..self }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Proof that microsurface links without std: a panic handler of its own, which std would duplicate.
 #![no_std]
 
+use microsurface::batch::{Directions, NdfBatch};
 use microsurface::bsdf::RoughConductor;
 use microsurface::filter::{Footprint, gaussian};
 use microsurface::fresnel::Dielectric;
@@ -44,4 +45,13 @@ pub extern "C" fn ggx_over(alpha: f32, step: f32) -> f32 {
     let convolved = gaussian::filtered(&surface, footprint.covariance(0.25)).map_or(-1.0, |s| s.d(Vec3::Z));
     let material = RoughConductor::new(surface, fresnel);
     convolved + material.eval_over(Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.0, 0.6, 0.8), &footprint)
+}
+
+/// D of Beckmann of one direction, as a batch, or −1.
+#[unsafe(no_mangle)]
+pub extern "C" fn batch_d(alpha: f32) -> f32 {
+    let Ok(surface) = Beckmann::isotropic(alpha) else { return -1.0 };
+    let mut d = [0.0; 1];
+    surface.d_batch(Directions { x: &[0.6], y: &[0.0], z: &[0.8] }, &mut d);
+    d[0]
 }

@@ -1,0 +1,150 @@
+//! Many directions at once, as structure of arrays: the entry points of wavefront renderers.
+//!
+//! Every method takes slices and does for each element what the method of the same name without `_batch` does for one:
+//! the same body, inlined into a loop over blocks that the compiler turns into vector code. A renderer that has sorted its
+//! hits by material calls the methods on the material; one whose material changes from element to element calls the same
+//! methods on a slice of materials of one type, `[N]`, one for each element.
+//!
+//! | | |
+//! |---|---|
+//! | [`NdfBatch`] | D, σ, Λ, G1, G2, D_w, all and visible normals, of any [`Ndf`](crate::Ndf) |
+//! | [`ReflectionBatch`] | f, density, both together, and samples of a [`RoughConductor`](crate::bsdf::RoughConductor) |
+//!
+//! # Domain
+//! Any length, 0 included; a length that is no multiple of the block is filled up with copies of one of its elements, so
+//! that the rest takes the same path. An element never depends on its neighbours: NaN stays in its lane. Materials are
+//! `Copy`; one that is not is passed as `&material`.
+//!
+//! # Panics
+//! Where slices differ in length, at entry: nothing has been written then. There is no other panic.
+//!
+//! # Dispatch
+//! With the feature `std`, on x86 and x86-64, the loops are compiled three times and the widest vectors that the processor
+//! has are chosen at run time: those of the build's own target, AVX2, or AVX-512. Without `std` and elsewhere the build's
+//! target decides; NEON is part of every AArch64. The first entry asks the processor, later ones read one atomic byte.
+//! A build for the processor itself (`-C target-cpu=native`) needs no choice and loses nothing by it.
+//!
+//! # Accuracy
+//! The results are those of the scalar calls to the bit, at every level: the operations and their order are the same, and
+//! nothing is contracted to fused multiply-adds. Only the payload and sign of a NaN may differ.
+//!
+//! # Example
+//! ```
+//! use microsurface::batch::{Directions, NdfBatch};
+//! use microsurface::{Ggx, Ndf, glam::Vec3};
+//! let surface = Ggx::isotropic(0.2_f32)?;
+//! let wm = Directions { x: &[0.0, 0.6, 0.0], y: &[0.0, 0.0, 0.6], z: &[1.0, 0.8, 0.8] };
+//! let mut d = [0.0; 3];
+//! surface.d_batch(wm, &mut d);
+//! assert_eq!(d[1], surface.d(Vec3::new(0.6, 0.0, 0.8)));
+//! // A width for each element.
+//! let surfaces = [Ggx::isotropic(0.2)?, Ggx::isotropic(0.3)?, Ggx::isotropic(0.4)?];
+//! surfaces.d_batch(wm, &mut d);
+//! assert_eq!(d[2], surfaces[2].d(Vec3::new(0.0, 0.6, 0.8)));
+//! # Ok::<(), microsurface::Error>(())
+//! ```
+
+mod blocks;
+mod conductor;
+#[doc(hidden)]
+pub mod dispatch;
+mod material;
+mod ndf;
+
+pub use conductor::ReflectionBatch;
+pub use material::{Material, Materials};
+pub use ndf::NdfBatch;
+
+/// Unit vectors, their components in three slices of equal length.
+///
+/// # Example
+/// ```
+/// use microsurface::batch::Directions;
+/// let up = Directions { x: &[0.0_f32; 4], y: &[0.0; 4], z: &[1.0; 4] };
+/// assert_eq!(up.len(), 4);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Directions<'a, T> {
+    /// First components.
+    pub x: &'a [T],
+    /// Second components.
+    pub y: &'a [T],
+    /// Components along the normal.
+    pub z: &'a [T],
+}
+
+impl<T> Directions<'_, T> {
+    /// The number of directions: the length of `x`, which the other slices must have too.
+    #[inline]
+    #[must_use]
+    pub const fn len(&self) -> usize {
+        self.x.len()
+    }
+
+    /// No directions.
+    #[inline]
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.x.is_empty()
+    }
+}
+
+/// Where directions are written, three slices of equal length.
+///
+/// # Example
+/// ```
+/// use microsurface::batch::{DirectionsMut, NdfBatch, Numbers};
+/// use microsurface::Ggx;
+/// let (mut x, mut y, mut z) = ([0.0_f32; 2], [0.0; 2], [0.0; 2]);
+/// let mut wm = DirectionsMut { x: &mut x, y: &mut y, z: &mut z };
+/// Ggx::isotropic(0.2)?.sample_d_batch(Numbers { x: &[0.0, 0.5], y: &[0.25, 0.5] }, wm.reborrow());
+/// assert_eq!(wm.as_directions().z[0], 1.0);
+/// # Ok::<(), microsurface::Error>(())
+/// ```
+#[derive(Debug, PartialEq)]
+pub struct DirectionsMut<'a, T> {
+    /// First components.
+    pub x: &'a mut [T],
+    /// Second components.
+    pub y: &'a mut [T],
+    /// Components along the normal.
+    pub z: &'a mut [T],
+}
+
+impl<T> DirectionsMut<'_, T> {
+    /// The same slices, for one call.
+    #[inline]
+    #[must_use]
+    pub const fn reborrow(&mut self) -> DirectionsMut<'_, T> {
+        DirectionsMut { x: self.x, y: self.y, z: self.z }
+    }
+
+    /// What has been written.
+    #[inline]
+    #[must_use]
+    pub const fn as_directions(&self) -> Directions<'_, T> {
+        Directions { x: self.x, y: self.y, z: self.z }
+    }
+}
+
+/// Random numbers u ∈ [0, 1)², 0 included: u.x and u.y in two slices of equal length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Numbers<'a, T> {
+    /// First numbers.
+    pub x: &'a [T],
+    /// Second numbers.
+    pub y: &'a [T],
+}
+
+/// Where samples of a BSDF are written, slices of equal length: a [`Sample`](crate::bsdf::Sample) each, or its absence.
+///
+/// Where there is no sample `weight` and `pdf` are 0, and `wi` is no direction to follow.
+#[derive(Debug, PartialEq)]
+pub struct Samples<'a, T, S> {
+    /// Directions to the light.
+    pub wi: DirectionsMut<'a, T>,
+    /// f(wi, wo) wi.z / pdf.
+    pub weight: &'a mut [S],
+    /// Densities of `wi`, 1/sr.
+    pub pdf: &'a mut [T],
+}

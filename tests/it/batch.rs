@@ -1,0 +1,361 @@
+//! Batches against the scalar calls, bit by bit, at every level of the instruction set that this machine has.
+
+use core::panic::AssertUnwindSafe;
+use std::panic::catch_unwind;
+
+use microsurface::batch::dispatch::{Level, highest, level, limit_to};
+use microsurface::batch::{
+    Directions, DirectionsMut, Materials, NdfBatch, Numbers, ReflectionBatch, Samples,
+};
+use microsurface::bsdf::{AllNormals, NormalSampling, RoughConductor, UniformMixture};
+use microsurface::fresnel::{Conductor, Dielectric, Fresnel, Perfect, Schlick, Spectrum};
+use microsurface::glam::Vec3;
+use microsurface::ndf::Vec3 as Vec3Of;
+use microsurface::{Beckmann, Ggx, Gtr, Ndf, Real, RoughnessMatrix, SampleNdf, SampleVndf};
+
+/// One more than a block, and a few.
+const LONGEST: usize = 67;
+
+/// Directions, some below the horizon, on it and straight up, and some with a NaN; random numbers with 0 among them.
+struct Arguments<T> {
+    wi: [Vec<T>; 3],
+    wo: [Vec<T>; 3],
+    u: [Vec<T>; 2],
+}
+
+impl<T: Real> Arguments<T> {
+    fn new(len: usize, seed: u64) -> Self {
+        let mut state = seed;
+        let mut random = move || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 40) as f64 / f64::from(1 << 24)
+        };
+        let mut directions = |shift: usize| {
+            let mut slices = [const { Vec::new() }; 3];
+            for i in 0..len {
+                let z = match (i + shift) % 17 {
+                    3 => 0.0,
+                    5 => -random(),
+                    7 => 1.0,
+                    9 => 1e-6 * random(),
+                    _ => random(),
+                };
+                let (sin, cos) = (core::f64::consts::TAU * random()).sin_cos();
+                let r = (1.0 - z * z).sqrt();
+                let nan = if (i + shift) % 23 == 11 { f64::NAN } else { 0.0 };
+                for (slice, c) in slices.iter_mut().zip([r * cos, r * sin + nan, z]) {
+                    slice.push(T::lit(c));
+                }
+            }
+            slices
+        };
+        let (wi, wo) = (directions(0), directions(4));
+        let u = [0, 1].map(|k| {
+            let number =
+                |i| if (i + k) % 13 == 2 { T::ZERO } else { T::lit(0.618034 * (i + 7 * k) as f64 % 1.0) };
+            (0..len).map(number).collect()
+        });
+        Self { wi, wo, u }
+    }
+
+    fn wi(&self) -> Directions<'_, T> {
+        borrowed(&self.wi)
+    }
+    fn wo(&self) -> Directions<'_, T> {
+        borrowed(&self.wo)
+    }
+    fn u(&self) -> Numbers<'_, T> {
+        Numbers { x: &self.u[0], y: &self.u[1] }
+    }
+}
+
+fn borrowed<T>([x, y, z]: &[Vec<T>; 3]) -> Directions<'_, T> {
+    Directions { x, y, z }
+}
+
+fn direction<T: Real>([x, y, z]: &[Vec<T>; 3], i: usize) -> T::Vec3 {
+    [x[i], y[i], z[i]].into()
+}
+
+fn numbers<T: Real>([x, y]: &[Vec<T>; 2], i: usize) -> T::Vec2 {
+    [x[i], y[i]].into()
+}
+
+/// Bits of one kind of NaN.
+fn bits<T: Real>(x: T) -> u64 {
+    let x = x.to_f64();
+    if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() }
+}
+
+fn same<T: Real>(what: &str, batch: &[T], scalar: impl Fn(usize) -> T) {
+    for (i, &batch_value) in batch.iter().enumerate() {
+        let value = scalar(i);
+        let len = batch.len();
+        assert_eq!(
+            bits(batch_value),
+            bits(value),
+            "{what}[{i}] of {len}: {batch_value} and {value}, {:?}",
+            level()
+        );
+    }
+}
+
+fn same_directions<T: Real>(what: &str, batch: &[Vec<T>; 3], scalar: impl Fn(usize) -> T::Vec3) {
+    for (k, component) in batch.iter().enumerate() {
+        same(what, component, |i| {
+            let v: [T; 3] = scalar(i).into();
+            v[k]
+        });
+    }
+}
+
+/// One material on batches of every length.
+fn one<M: Copy>(materials: [M; 2], check: impl Fn(&M, usize, &dyn Fn(usize) -> M)) {
+    for len in 0..=LONGEST {
+        check(&materials[0], len, &|_| materials[0]);
+    }
+}
+
+/// Slices of two materials by turns, of every length.
+fn slice<M: Copy>(materials: [M; 2], check: impl Fn(&[M], usize, &dyn Fn(usize) -> M)) {
+    for len in 0..=LONGEST {
+        let each: Vec<M> = (0..len).map(|i| materials[i % 2]).collect();
+        check(&each, len, &|i| materials[i % 2]);
+    }
+}
+
+type Scalar<B> = <<B as Materials>::Material as Ndf>::Scalar;
+
+fn evaluates<B: NdfBatch + ?Sized>(batch: &B, len: usize, at: &dyn Fn(usize) -> B::Material)
+where
+    B::Material: SampleNdf,
+{
+    let a = Arguments::<Scalar<B>>::new(len, 1);
+    let (wi, wo) = (|i| direction::<Scalar<B>>(&a.wi, i), |i| direction::<Scalar<B>>(&a.wo, i));
+    let mut out = vec![Scalar::<B>::ONE; len];
+    batch.d_batch(a.wo(), &mut out);
+    same("d", &out, |i| at(i).d(wo(i)));
+    batch.sigma_batch(a.wo(), &mut out);
+    same("sigma", &out, |i| at(i).sigma(wo(i)));
+    batch.lambda_batch(a.wo(), &mut out);
+    same("lambda", &out, |i| at(i).lambda(wo(i)));
+    batch.g1_batch(a.wo(), a.wi(), &mut out);
+    same("g1", &out, |i| at(i).g1(wo(i), wi(i)));
+    batch.g2_batch(a.wi(), a.wo(), a.wi(), &mut out);
+    same("g2", &out, |i| at(i).g2(wi(i), wo(i), wi(i)));
+    batch.vndf_batch(a.wo(), a.wi(), &mut out);
+    same("vndf", &out, |i| at(i).vndf(wo(i), wi(i)));
+    let mut normals = [0, 1, 2].map(|_| vec![Scalar::<B>::ONE; len]);
+    let [x, y, z] = &mut normals;
+    batch.sample_d_batch(a.u(), DirectionsMut { x, y, z });
+    same_directions("sample_d", &normals, |i| at(i).sample_d(numbers(&a.u, i)));
+}
+
+fn samples<B: NdfBatch + ?Sized>(batch: &B, len: usize, at: &dyn Fn(usize) -> B::Material)
+where
+    B::Material: SampleVndf,
+{
+    let a = Arguments::<Scalar<B>>::new(len, 2);
+    let mut normals = [0, 1, 2].map(|_| vec![Scalar::<B>::ONE; len]);
+    let [x, y, z] = &mut normals;
+    batch.sample_vndf_batch(a.wo(), a.u(), DirectionsMut { x, y, z });
+    same_directions("sample_vndf", &normals, |i| {
+        at(i).sample_vndf(direction::<Scalar<B>>(&a.wo, i), numbers(&a.u, i))
+    });
+}
+
+fn reflects<N, F, S, B>(batch: &B, len: usize, at: &dyn Fn(usize) -> RoughConductor<N, F, S>)
+where
+    N: Ndf + Copy,
+    F: Fresnel + Copy,
+    F::Output: Spectrum<Scalar = N::Scalar>,
+    S: NormalSampling<N> + Copy,
+    B: Materials<Material = RoughConductor<N, F, S>> + ?Sized,
+{
+    let nothing = F::Output::splat(N::Scalar::ONE);
+    // A channel at a time.
+    let same_values = |what: &str, batch: &[F::Output], scalar: &dyn Fn(usize) -> F::Output| {
+        for (i, &value) in batch.iter().enumerate() {
+            let _ = value.zip(scalar(i), |a, b| {
+                assert_eq!(bits(a), bits(b), "{what}[{i}] of {}: {a} and {b}, {:?}", batch.len(), level());
+                a
+            });
+        }
+    };
+    let a = Arguments::<N::Scalar>::new(len, 3);
+    let wi = |i| -> Vec3Of<N> { direction::<N::Scalar>(&a.wi, i) };
+    let wo = |i| -> Vec3Of<N> { direction::<N::Scalar>(&a.wo, i) };
+    let (mut f, mut pdf) = (vec![nothing; len], vec![N::Scalar::ONE; len]);
+    batch.eval_batch(a.wi(), a.wo(), &mut f);
+    same_values("eval", &f, &|i| at(i).eval(wi(i), wo(i)));
+    batch.pdf_batch(a.wi(), a.wo(), &mut pdf);
+    same("pdf", &pdf, |i| at(i).pdf(wi(i), wo(i)));
+    f.fill(nothing);
+    pdf.fill(N::Scalar::ONE);
+    batch.eval_and_pdf_batch(a.wi(), a.wo(), &mut f, &mut pdf);
+    same_values("f of both", &f, &|i| at(i).eval(wi(i), wo(i)));
+    same("density of both", &pdf, |i| at(i).pdf(wi(i), wo(i)));
+
+    let mut sampled = [0, 1, 2].map(|_| vec![N::Scalar::ONE; len]);
+    let [x, y, z] = &mut sampled;
+    batch.sample_batch(
+        a.wo(),
+        a.u(),
+        Samples { wi: DirectionsMut { x, y, z }, weight: &mut f, pdf: &mut pdf },
+    );
+    let scalar = |i| at(i).sample(wo(i), numbers(&a.u, i));
+    let zero = N::Scalar::ZERO;
+    same_values("weight", &f, &|i| scalar(i).map_or(F::Output::splat(zero), |sample| sample.weight));
+    same("density of the sample", &pdf, |i| scalar(i).map_or(zero, |sample| sample.pdf));
+    same_directions("sample", &sampled, |i| {
+        scalar(i).map_or(direction::<N::Scalar>(&sampled, i), |sample| sample.wi)
+    });
+}
+
+/// Profiles, maps, samplings and Fresnel terms; every loop is compiled three times, so that not all combinations are here.
+fn everything<T: Elementary>() {
+    let l = T::lit;
+    let matrix = |a| RoughnessMatrix::rotated(l(a), l(0.1), l(0.4)).unwrap();
+    let ggx = [0.3, 0.01].map(|alpha| Ggx::isotropic(l(alpha)).unwrap());
+    let turned = [0.5, 0.02].map(|alpha| Ggx::from_roughness_matrix(matrix(alpha)));
+    let beckmann = [0.3, 0.01].map(|alpha| Beckmann::anisotropic(l(alpha), l(0.2)).unwrap());
+    let spline = [0.3, 0.05].map(|alpha| Gtr::spline(l(alpha), l(1.5)).unwrap());
+    one(ggx, |m, len, at| evaluates(m, len, at));
+    slice(ggx, |m, len, at| evaluates(m, len, at));
+    one(turned, |m, len, at| evaluates(m, len, at));
+    one(beckmann, |m, len, at| evaluates(m, len, at));
+    one(turned, |m, len, at| samples(m, len, at));
+    slice(turned, |m, len, at| samples(m, len, at));
+    one(beckmann, |m, len, at| samples(m, len, at));
+
+    let glass = Dielectric::new(l(1.5)).unwrap();
+    let rough = ggx.map(|surface| RoughConductor::new(surface, Schlick::new(l(0.9))));
+    one(rough, |m, len, at| reflects(m, len, at));
+    slice(rough, |m, len, at| reflects(m, len, at));
+    one(beckmann.map(|surface| RoughConductor::new(surface, glass)), |m, len, at| reflects(m, len, at));
+    let mixture = UniformMixture::new(AllNormals, l(0.3)).unwrap();
+    let mixed = spline.map(|surface| RoughConductor::new(surface, Perfect::<T>::new()).sampled_by(mixture));
+    one(mixed, |m, len, at| reflects(m, len, at));
+
+    // Forms 0, 1, 2 and beyond.
+    for gammas in [[1.5, 2.5], [2.5, 3.5], [3.5, 5.5], [5.5, 1.5]] {
+        let any = gammas.map(|gamma| Gtr::with_nodes::<2>(l(0.3), l(gamma)).unwrap());
+        one(any, |surface, len, at| {
+            let a = Arguments::<T>::new(len, 7);
+            let mut out = vec![T::ONE; len];
+            surface.sigma_batch(a.wo(), &mut out);
+            same("sigma", &out, |i| at(i).sigma(direction::<T>(&a.wo, i)));
+            surface.g1_batch(a.wo(), a.wi(), &mut out);
+            same("g1", &out, |i| at(i).g1(direction::<T>(&a.wo, i), direction::<T>(&a.wi, i)));
+        });
+    }
+}
+
+/// f32 and f64 as their own spectra.
+trait Elementary: Real + Spectrum<Scalar = Self> {}
+impl Elementary for f32 {}
+impl Elementary for f64 {}
+
+/// The only test that limits the level; the others are right at any.
+#[test]
+fn every_entry_point_is_the_scalar_call_at_every_level() {
+    for limit in [Level::Target, Level::Avx2, Level::Avx512] {
+        let used = limit_to(limit);
+        assert!(used <= limit && used <= highest() && level() == used);
+        if used == limit {
+            everything::<f32>();
+            everything::<f64>();
+        }
+    }
+    assert_eq!(limit_to(highest()), highest());
+}
+
+/// Not `Copy`.
+struct Table(Vec<microsurface::Microsurface<Ggx, microsurface::Isotropic<f32>>>);
+impl Ndf for Table {
+    type Scalar = f32;
+    fn d(&self, wm: Vec3) -> f32 {
+        self.0[1].d(wm)
+    }
+    fn sigma(&self, w: Vec3) -> f32 {
+        self.0[1].sigma(w)
+    }
+    fn lambda(&self, w: Vec3) -> f32 {
+        self.0[1].lambda(w)
+    }
+}
+
+#[test]
+fn spectra_of_three_and_borrowed_distributions() {
+    let gold = Conductor::new(Vec3::new(0.14, 0.43, 1.38), Vec3::new(3.697, 2.455, 1.914)).unwrap();
+    let surfaces = [0.2_f32, 0.05].map(|alpha| Ggx::isotropic(alpha).unwrap());
+    one(surfaces.map(|surface| RoughConductor::new(surface, gold)), |m, len, at| reflects(m, len, at));
+    let table = Table(surfaces.to_vec());
+    let a = Arguments::<f32>::new(LONGEST, 5);
+    let (mut one, mut other) = ([0.0; LONGEST], [0.0; LONGEST]);
+    (&table).vndf_batch(a.wo(), a.wi(), &mut one);
+    surfaces[1].vndf_batch(a.wo(), a.wi(), &mut other);
+    same("vndf of a table", &one, |i| other[i]);
+}
+
+/// Every slice in turn one too short and one too long.
+#[test]
+fn slices_of_unequal_lengths_panic_before_anything_is_written() {
+    const LEN: usize = 65;
+    let surface = Ggx::isotropic(0.3_f64).unwrap();
+    let brdf = RoughConductor::new(surface, Schlick::new(0.9));
+    let a = Arguments::<f64>::new(LEN + 1, 4);
+    for wrong in [0, LEN - 1, LEN + 1] {
+        for odd in 0..10 {
+            let len = |k: usize| if k == odd { wrong } else { LEN };
+            let wo = Directions { x: &a.wo[0][..len(0)], y: &a.wo[1][..len(1)], z: &a.wo[2][..len(2)] };
+            let u = Numbers { x: &a.u[0][..len(3)], y: &a.u[1][..len(4)] };
+            let mut out = [0, 1, 2, 3, 4].map(|k| vec![-7.0; len(5 + k)]);
+            let [x, y, z, weight, pdf] = &mut out;
+            let panicked = catch_unwind(AssertUnwindSafe(|| {
+                brdf.sample_batch(wo, u, Samples { wi: DirectionsMut { x, y, z }, weight, pdf });
+            }));
+            assert!(panicked.is_err(), "slice {odd} of length {wrong}");
+            assert!(out.iter().flatten().all(|&value| value == -7.0), "slice {odd} of length {wrong}");
+        }
+        let full = Directions { x: &a.wo[0][..LEN], y: &a.wo[1][..LEN], z: &a.wo[2][..LEN] };
+        let mut out = vec![-7.0; LEN];
+        for (surfaces, wi, out_len) in [(wrong, LEN, LEN), (LEN, wrong, LEN), (LEN, LEN, wrong.min(LEN - 1))]
+        {
+            let (surfaces, out) = (vec![surface; surfaces], &mut out[..out_len]);
+            let w = Directions { x: &a.wi[0][..LEN], y: &a.wi[1][..LEN], z: &a.wi[2][..wi] };
+            let panicked = catch_unwind(AssertUnwindSafe(|| surfaces[..].g1_batch(full, w, out)));
+            assert!(panicked.is_err() && out.iter().all(|&value| value == -7.0), "length {wrong}");
+        }
+    }
+}
+
+#[test]
+fn nan_stays_in_its_lane() {
+    let surface = Beckmann::anisotropic(0.3_f32, 0.1).unwrap();
+    let mut a = Arguments::<f32>::new(LONGEST, 6);
+    for slice in a.wo.iter_mut().chain(&mut a.wi) {
+        for value in slice {
+            *value = if value.is_nan() { 0.5 } else { *value };
+        }
+    }
+    let values = |a: &Arguments<f32>| {
+        let (mut g2, mut normals) = ([0.0; LONGEST], [0, 1, 2].map(|_| vec![0.0; LONGEST]));
+        surface.g2_batch(a.wi(), a.wo(), a.wo(), &mut g2);
+        let [x, y, z] = &mut normals;
+        surface.sample_vndf_batch(a.wo(), a.u(), DirectionsMut { x, y, z });
+        (g2, normals)
+    };
+    let (g2, normals) = values(&a);
+    for lane in 0..LONGEST {
+        let saved = core::mem::replace(&mut a.wo[0][lane], f32::NAN);
+        let (g2_beside, normals_beside) = values(&a);
+        let others = |i: usize| i != lane;
+        assert!((0..LONGEST).filter(|&i| others(i)).all(|i| bits(g2[i]) == bits(g2_beside[i])));
+        for (before, beside) in normals.iter().zip(&normals_beside) {
+            assert!((0..LONGEST).filter(|&i| others(i)).all(|i| bits(before[i]) == bits(beside[i])));
+            assert!(beside[lane].is_nan());
+        }
+        a.wo[0][lane] = saved;
+    }
+}
