@@ -12,7 +12,6 @@
 mod accuracy;
 mod approximations;
 mod bad_input;
-mod batch;
 mod elementary;
 mod filter;
 mod hammer;

@@ -1,4 +1,9 @@
 //! Batches against the scalar calls, bit by bit, at every level of the instruction set that this machine has.
+//!
+//! A test binary of its own: every entry point is compiled for every level.
+#![expect(clippy::unwrap_used, reason = "a surface that cannot be built is a failed test")]
+#![expect(clippy::cast_precision_loss, reason = "counts and random bits become numbers")]
+#![expect(clippy::float_cmp, reason = "what was not written must be as it was")]
 
 use core::panic::AssertUnwindSafe;
 use std::panic::catch_unwind;
