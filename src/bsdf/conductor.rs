@@ -173,7 +173,7 @@ where
     /// ```
     /// use microsurface::{Ggx, bsdf::RoughConductor, filter::Footprint, fresnel::Schlick, glam::{Vec2, Vec3}};
     /// let chrome = RoughConductor::new(Ggx::isotropic(0.01_f32)?, Schlick::new(0.6_f32));
-    /// let (wi, wo) = (Vec3::new(0.6, 0.0, 0.8), Vec3::new(-0.57, 0.0, 0.8216447));
+    /// let (wi, wo) = (Vec3::new(0.6, 0.0, 0.8), Vec3::new(-0.535, 0.0, 0.8448521));
     /// // The highlight is beside the centre of the pixel, and within it.
     /// let pixel = Footprint::<f32>::new(Vec2::new(0.1, 0.0), Vec2::new(0.0, 0.1));
     /// assert!(chrome.eval_over(wi, wo, &pixel) > 3.0 * chrome.eval(wi, wo));
