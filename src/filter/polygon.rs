@@ -38,6 +38,9 @@ use crate::profile::beckmann::Beckmann;
 use crate::profile::ggx::Ggx;
 use crate::profile::gtr::{Gtr, Masking};
 
+/// Edges and slopes beyond this, in units of α, count as infinite: fourth powers of them are still numbers. No f32 reaches it.
+const LARGEST: f64 = 1e70;
+
 /// A profile whose slopes can be averaged over parallelograms.
 pub trait MeanOverParallelogram<T: Real>: Profile<T> {
     /// The mean of the profile's own P22 (map I) over the parallelogram `centre` ± ½ `u` ± ½ `v`.
@@ -58,12 +61,13 @@ pub trait MeanOverParallelogram<T: Real>: Profile<T> {
 /// Any parallelogram, degenerate ones included: a line, a point.
 ///
 /// # Special cases
-/// Edges or a slope that are not finite, as at half vectors on the horizon → 0: the mean over all slopes. NaN → NaN.
+/// Edges or a slope that are not finite, as at half vectors on the horizon, or beyond 1e70 α → 0: the mean over all slopes.
+/// NaN → NaN.
 /// [`Footprint::clamped`](crate::filter::Footprint::clamped) gives finite edges.
 ///
 /// # Accuracy
 /// Evaluated in f64 for both scalars. GGX: relative 1.2e-10 for edges from 1e-8 to 1e5 α and slopes out to 1e4 α, worst for
-/// thin parallelograms whose edges have nearly one direction; 5e-11 otherwise. GTR and Beckmann: 1e-9.
+/// thin parallelograms whose edges have nearly one direction; 5e-11 otherwise. GTR and Beckmann: 1e-9; GTR not for edges of one direction beyond 1e4 of its width.
 ///
 /// # Cost
 /// GGX: four arcus tangents, or 25 points where the footprint is small against α. Beckmann (20 times that) and GTR (100
@@ -95,15 +99,28 @@ where
     P: MeanOverParallelogram<M::Scalar>,
     M: Map,
 {
+    mean_of(surface, slope, dh_du, dh_dv, |centre, u, v| {
+        surface.profile().mean_over_parallelogram(centre, u, v)
+    })
+}
+
+/// A mean of the profile at what it sees of slope and edges, as a mean of the surface.
+pub(super) fn mean_of<P, M: Map>(
+    surface: &Microsurface<P, M>,
+    slope: <M::Scalar as Real>::Vec2,
+    dh_du: <M::Scalar as Real>::Vec2,
+    dh_dv: <M::Scalar as Real>::Vec2,
+    mean: impl FnOnce([f64; 2], [f64; 2], [f64; 2]) -> f64,
+) -> M::Scalar {
     let [centre, u, v] = [slope, dh_du, dh_dv].map(|vector| seen_by_profile(surface.map(), vector));
-    if ![centre, u, v].as_flattened().iter().all(|x| x.is_finite()) {
+    if ![centre, u, v].as_flattened().iter().all(|x| x.abs() <= LARGEST) {
         // Before the map, which makes NaN of two infinities.
         let given: [[M::Scalar; 2]; 3] = [slope.into(), dh_du.into(), dh_dv.into()];
         let sum = given.as_flattened().iter().fold(M::Scalar::ZERO, |sum, x| sum + x.abs());
-        return if sum.is_finite() || sum == M::Scalar::INFINITY { M::Scalar::ZERO } else { sum };
+        return if sum <= M::Scalar::INFINITY { M::Scalar::ZERO } else { sum };
     }
     let [r11, _, r22] = factor(surface.map());
-    M::Scalar::lit(surface.profile().mean_over_parallelogram(centre, u, v) / (r11 * r22))
+    M::Scalar::lit(mean(centre, u, v) / (r11 * r22))
 }
 
 /// ∫ P22 over the polygon of these vertices, in order: the share of facets whose slopes are within.

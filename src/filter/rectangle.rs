@@ -5,7 +5,7 @@
 //! over the parallelogram itself, [`polygon::mean_p22`], costs the same.
 
 use crate::Real;
-use crate::filter::covariance::{factor, seen_by_profile};
+use crate::filter::covariance::factor;
 use crate::filter::polygon::{self, MeanOverParallelogram};
 use crate::map::Map;
 use crate::microsurface::Microsurface;
@@ -47,13 +47,14 @@ where
     P: MeanOverParallelogram<M::Scalar>,
     M: Map,
 {
-    let [r11, r12, r22] = factor(surface.map());
     let [x, y]: [M::Scalar; 2] = half_extents.into();
-    let half = [x.to_f64() / r11, y.to_f64() / r22];
-    if r12 == 0.0 && half[0].is_finite() && half[1].is_finite() {
-        let centre = seen_by_profile(surface.map(), slope);
-        return M::Scalar::lit(surface.profile().mean_over_box(centre, half) / (r11 * r22));
-    }
     let (zero, two) = (M::Scalar::ZERO, M::Scalar::TWO);
-    polygon::mean_p22(surface, slope, [two * x, zero].into(), [zero, two * y].into())
+    let [_, r12, _] = factor(surface.map());
+    polygon::mean_of(surface, slope, [two * x, zero].into(), [zero, two * y].into(), |centre, u, v| {
+        if r12 == 0.0 {
+            surface.profile().mean_over_box(centre, [0.5 * u[0], 0.5 * v[1]])
+        } else {
+            surface.profile().mean_over_parallelogram(centre, u, v)
+        }
+    })
 }

@@ -1,6 +1,7 @@
 //! Filters of distributions.
 
 mod convolution;
+mod covariance;
 mod deferred;
 mod footprints;
 mod means;
@@ -8,8 +9,10 @@ mod normal_map;
 mod projected;
 
 use microsurface::Real;
+use microsurface::filter::Footprint;
+use microsurface::glam::DVec2;
 use microsurface::map::Map;
-use rand::Rng;
+use rand::{Rng, RngExt};
 use rand_pcg::Pcg64Mcg;
 
 /// Uniform in [low, high).
@@ -21,4 +24,13 @@ fn uniform(random: &mut Pcg64Mcg, low: f64, high: f64) -> f64 {
 fn matrix<M: Map>(map: &M) -> ([f64; 3], f64) {
     let [[a, b], [_, d]] = map.inverse().map(|row| row.map(Real::to_f64));
     ([a * a, a * b, b * b + d * d], (a * d) * (a * d))
+}
+
+/// A footprint as it comes: any shape and size, in slopes.
+fn footprint(rng: &mut Pcg64Mcg) -> Footprint<f64> {
+    let [u, v] = [(); 2].map(|()| {
+        let length = uniform(rng, -6.0, 1.0).exp2();
+        DVec2::from_angle(uniform(rng, 0.0, 6.3)) * length
+    });
+    Footprint::new(u, if rng.random_bool(0.3) { 1e-3 * v + 0.4 * u } else { v })
 }

@@ -8,6 +8,8 @@ const WEIGHTS: [f64; 3] = [0.46791393457269104739, 0.36076157304813860757, 0.171
 const SIDE: f64 = 1.0;
 /// Splitting in turns needs a stack no deeper than the splits of one path: 2 × 30 for a ratio of 1e9.
 const DEPTH: usize = 80;
+/// So that edges of one direction and of 1e6 scales and more, whose cells all lie on one line, come to an end.
+const MOST_SPLITS: u32 = 1 << 20;
 
 /// A part of the parallelogram, in fractions of its edges.
 #[derive(Debug, Clone, Copy)]
@@ -32,7 +34,7 @@ pub(super) fn mean(
     let length = |[x, y]: [f64; 2]| crate::Real::sqrt(x * x + y * y);
     let (u_length, v_length) = (length(u), length(v));
     let mut stack = [Cell { a: 0.0, b: 0.0, width: 1.0, height: 1.0 }; DEPTH];
-    let (mut count, mut sum) = (1, 0.0);
+    let (mut count, mut splits, mut sum) = (1, 0, 0.0);
     while count > 0 {
         count -= 1;
         let cell = stack[count];
@@ -40,7 +42,7 @@ pub(super) fn mean(
         let (wide, high) = (cell.width * u_length, cell.height * v_length);
         let nearest = length(at(cell.a, cell.b)) - 0.5 * (wide + high);
         let longest = SIDE * scale(if nearest > 0.0 { nearest } else { 0.0 });
-        if wide.max(high) <= longest || count + 2 > DEPTH {
+        if wide.max(high) <= longest || count + 2 > DEPTH || splits == MOST_SPLITS {
             let mut of_cell = 0.0;
             for (x, wx) in NODES.iter().zip(WEIGHTS) {
                 for (y, wy) in NODES.iter().zip(WEIGHTS) {
@@ -64,6 +66,7 @@ pub(super) fn mean(
             };
             (stack[count], stack[count + 1]) = (half(-0.25), half(0.25));
             count += 2;
+            splits += 1;
         }
     }
     sum

@@ -75,7 +75,10 @@ pub(super) fn mean(centre: Point, u: Point, v: Point) -> f64 {
             + flux(Edge { p: d, q: a, step: [-v[0], -v[1]], moment: 0.5 * area - across_v });
         along_u + along_v
     };
-    if distance2 > 1.0 { -around(Edge::flux_from_infinity) / area } else { around(Edge::flux) / area }
+    let mean =
+        if distance2 > 1.0 { -around(Edge::flux_from_infinity) / area } else { around(Edge::flux) / area };
+    // Footprints whose position is rounding may have lost all digits, and their sign.
+    if mean < 0.0 { 0.0 } else { mean }
 }
 
 /// The squared distance of the parallelogram from the origin, 0 where it holds the origin.

@@ -16,6 +16,9 @@ const WEIGHTS: [f64; 4] =
 /// What lies this much farther from the origin, in squares, than the nearest of all is below 4e-11 of it.
 const NEGLIGIBLE: f64 = 24.0;
 
+/// More are asked for only where the position of the edges is known to less than the width of the distribution.
+const MOST_PANELS: u16 = 4096;
+
 /// The mean of e^{−x²}/√π within `half` of x.
 #[inline]
 pub(super) fn mean_within(x: f64, half: f64) -> f64 {
@@ -50,39 +53,38 @@ pub(super) fn mean(centre: [f64; 2], u: [f64; 2], v: [f64; 2]) -> f64 {
         let along = (x.abs() - half).max(0.0);
         along * along + y * y
     };
-    // It is convex in b: thirds lead to the least, and from there outwards to what is negligible.
-    let (mut low, mut high) = (-0.5, 0.5);
-    for _ in 0..40 {
-        let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
-        if distance2(a) < distance2(b) {
-            high = b;
-        } else {
-            low = a;
+    // Its least is where the line crosses an axis or an end of the edge, where the distance from an end is least, or at the
+    // ends of the shorter edge: a piecewise parabola has no other minima.
+    let squared = dx * dx + dy * dy;
+    let candidates = [
+        -y / dy,
+        (half - x) / dx,
+        (-half - x) / dx,
+        -(dx * (x - half) + dy * y) / squared,
+        -(dx * (x + half) + dy * y) / squared,
+        -0.5,
+        0.5,
+    ];
+    let least = candidates.iter().fold(f64::INFINITY, |least, &b| {
+        // NaN, of a quotient by 0, is no candidate.
+        let b = if b > -0.5 { b.min(0.5) } else { -0.5 };
+        let distance2 = distance2(b);
+        if distance2 < least { distance2 } else { least }
+    });
+    // Beyond this distance along either axis all is negligible.
+    let reach = Real::sqrt(least + NEGLIGIBLE);
+    let (mut first, mut last) = (-0.5_f64, 0.5_f64);
+    for (at, step, reach) in [(y, dy, reach), (x, dx, half + reach)] {
+        if step != 0.0 {
+            let (a, b) = ((-reach - at) / step, (reach - at) / step);
+            first = first.max(a.min(b)).min(0.5);
+            last = last.min(a.max(b)).max(-0.5);
         }
     }
-    let nearest = 0.5 * (low + high);
-    let limit = distance2(nearest) + NEGLIGIBLE;
-    let end_towards = |end: f64| {
-        let (mut inside, mut outside) = (nearest, end);
-        if distance2(end) <= limit {
-            return end;
-        }
-        for _ in 0..20 {
-            let middle = 0.5 * (inside + outside);
-            if distance2(middle) <= limit {
-                inside = middle;
-            } else {
-                outside = middle;
-            }
-        }
-        outside
-    };
-    let (first, last) = (end_towards(-0.5), end_towards(0.5));
     // The density varies on a distance of 1 near the origin and of 1/r far from it.
-    let steepness = 1.0 + Real::sqrt(distance2(nearest));
-    let panels = (last - first) * short * steepness / PANEL;
-    let (mut count, mut width) = (1, last - first);
-    while f64::from(count) < panels {
+    let panels = (last - first) * short * (1.0 + Real::sqrt(least)) / PANEL;
+    let (mut count, mut width) = (1_u16, last - first);
+    while f64::from(count) < panels && count < MOST_PANELS {
         count *= 2;
         width *= 0.5;
     }

@@ -6,7 +6,7 @@ use microsurface::filter::polygon::{self, MeanOverParallelogram};
 use microsurface::filter::rectangle;
 use microsurface::fresnel::Schlick;
 use microsurface::glam::{DVec2, Vec2};
-use microsurface::map::Map;
+use microsurface::map::{Isotropic, Map};
 use microsurface::{Beckmann, Ggx, Gtr, Microsurface, Ndf, RoughnessMatrix};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
@@ -227,6 +227,8 @@ fn a_point_a_line_and_everything() {
     assert_eq!(polygon::mean_p22(&surface, slope, infinite, zero), 0.0);
     assert_eq!(polygon::mean_p22(&surface, infinite, zero, zero), 0.0);
     assert_eq!(rectangle::mean_p22(&surface, slope, infinite), 0.0);
+    assert_eq!(rectangle::mean_p22(&surface, infinite, slope), 0.0);
+    assert!(rectangle::mean_p22(&surface, DVec2::NAN, slope).is_nan());
     assert!(polygon::mean_p22(&surface, DVec2::NAN, zero, zero).is_nan());
     assert!(polygon::mean_p22(&surface, slope, DVec2::NAN, zero).is_nan());
 }
@@ -294,6 +296,41 @@ fn the_brdf_over_a_footprint() {
         assert!((over / swapped - 1.0).abs() < 1e-9);
         assert_eq!(material.eval_over(-wi, wo, &point), 0.0);
     }
+}
+
+/// However large or far, every profile ends with a number that is neither negative nor above the peak.
+#[test]
+fn footprints_without_measure() {
+    fn bounded<P: MeanOverParallelogram<f64>>(
+        surface: &Microsurface<P, Isotropic<f64>>,
+        peak: f64,
+        rounds: u32,
+    ) where
+        Microsurface<P, Isotropic<f64>>: Ndf<Scalar = f64>,
+    {
+        let mut rng = Pcg64::seed_from_u64(12);
+        let sizes = [0.0, 1e-300, 1e-30, 1.0, 1e8, 1e13, 1e30, 1e60, 1e69, 1e100, 1e200, f64::MAX];
+        for _ in 0..rounds {
+            let [slope, u, v] = [(); 3].map(|()| {
+                let size = sizes[rng.random_range(0..sizes.len())];
+                turned(&mut rng, 1.0) * size
+            });
+            let means = [
+                polygon::mean_p22(surface, slope, u, v),
+                polygon::mean_p22(surface, slope, u, 0.5 * u),
+                polygon::mean_p22(surface, 0.3 * u, u, v),
+                rectangle::mean_p22(surface, slope, u),
+            ];
+            assert!(means.iter().all(|m| (0.0..=peak).contains(m)), "{slope} {u} {v}: {means:?}");
+        }
+    }
+    let peak = |surface: &dyn Ndf<Scalar = f64>| surface.p22(DVec2::ZERO) * (1.0 + 1e-9);
+    let surface = Ggx::isotropic(0.1).unwrap();
+    bounded(&surface, peak(&surface), 400);
+    let surface = Beckmann::isotropic(0.1).unwrap();
+    bounded(&surface, peak(&surface), 400);
+    let surface = Gtr::isotropic(0.1, 3.3).unwrap();
+    bounded(&surface, peak(&surface), 12);
 }
 
 #[test]
