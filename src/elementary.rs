@@ -35,6 +35,7 @@ pub(crate) use erf_inv::erfc_inv_wide;
 pub use erf_inv::{erf_inv, erfc_inv};
 pub use erfcx::{erfcx, ierfcx};
 pub use exp::{exp, exp_m1, exp_neg_square, exp_wide};
+pub(crate) use exp::{exp_normal, exp_normal_wide};
 pub(crate) use log::{inverse_power_of_ratio, inverse_root};
 pub use log::{ln, ln_1p, ln_wide, pow_wide};
 pub(crate) use trig::sin_cos_of_turn;

@@ -127,11 +127,10 @@ impl<P: Profile<M::Scalar>, M: Map> Ndf for Microsurface<P, M> {
     fn sigma(&self, w: Vec3<Self>) -> M::Scalar {
         let w: [M::Scalar; 3] = w.into();
         let s2 = self.map.direction_term(w);
-        if w[2] < M::Scalar::ZERO {
-            self.profile.sigma_backfacing(s2, -w[2])
-        } else {
-            self.profile.sigma_above(s2, w[2])
-        }
+        // Both of |z|, so that they share what they have in common.
+        let z = w[2].abs();
+        let (above, backfacing) = (self.profile.sigma_above(s2, z), self.profile.sigma_backfacing(s2, z));
+        if w[2] < M::Scalar::ZERO { backfacing } else { above }
     }
 
     #[inline(always)]

@@ -30,6 +30,35 @@ fn scale<T: Real>(y: T, n: T) -> T {
     y * n1.exp2_of_integer() * (n - n1).exp2_of_integer()
 }
 
+/// eˣ where it is a normal number: for a caller who knows, or who selects another value elsewhere.
+///
+/// What `exp` spends on the ends of its range is left out, and with it subnormal results, of which each costs a
+/// processor a microcode assist of a hundred cycles and more.
+#[inline(always)]
+pub(crate) fn exp_normal<T: Real>(x: T) -> T {
+    let n = round(x * T::lit(core::f64::consts::LOG2_E));
+    let low = -(n * T::lit(T::LN_2.1));
+    let high = x - n * T::lit(T::LN_2.0);
+    let r = high + low;
+    (T::ONE + (high + (low + r * r * polynomial(r, T::EXP)))) * n.exp2_of_integer()
+}
+
+/// eˣ of an argument in f64, where it is a normal number of `T`; see [`exp_normal`].
+#[inline(always)]
+pub(crate) fn exp_normal_wide<T: Real>(x: T::Wide) -> T {
+    let (y, n) = reduced_wide::<T>(x);
+    T::narrow(y * n.exp2_of_integer())
+}
+
+/// y and n with eˣ = y·2ⁿ; P(r) in the digits of `T`.
+#[inline(always)]
+fn reduced_wide<T: Real>(x: T::Wide) -> (T::Wide, T::Wide) {
+    let n = round(x * T::Wide::lit(core::f64::consts::LOG2_E));
+    let r = (x - n * T::Wide::lit(T::Wide::LN_2.0)) - n * T::Wide::lit(T::Wide::LN_2.1);
+    let s = T::narrow(r);
+    (T::Wide::ONE + (r + (s * s * polynomial(s, T::EXP)).widen()), n)
+}
+
 /// e^(x + tail), |tail| below 1.
 #[inline(always)]
 pub(super) fn exp_of_sum<T: Real>(x: T, tail: T) -> T {
@@ -98,11 +127,10 @@ pub fn exp<T: Real>(x: T) -> T {
 #[inline(always)]
 pub fn exp_wide<T: Real>(x: T::Wide) -> T {
     let (x, vanishes) = within_range::<T::Wide, T>(x);
-    let n = round(x * T::Wide::lit(core::f64::consts::LOG2_E));
-    let r = (x - n * T::Wide::lit(T::Wide::LN_2.0)) - n * T::Wide::lit(T::Wide::LN_2.1);
-    let s = T::narrow(r);
-    let y = T::Wide::ONE + (r + (s * s * polynomial(s, T::EXP)).widen());
-    if vanishes { T::ZERO } else { T::narrow(scale(y, n)) }
+    let (y, n) = reduced_wide::<T>(x);
+    // What is subnormal in f32 is not in f64.
+    let y = T::narrow(if T::WIDENS { y * n.exp2_of_integer() } else { scale(y, n) });
+    if vanishes { T::ZERO } else { y }
 }
 
 /// eˣ in `T` of an |x| ≤ 700 in f64.

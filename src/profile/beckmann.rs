@@ -3,7 +3,9 @@
 pub(crate) mod visible;
 
 use crate::Real;
-use crate::elementary::{erfc_inv_wide, exp, exp_wide, ierfcx, ln_1p, sin_cos_of_turn};
+use crate::elementary::{
+    erfc_inv_wide, exp_normal, exp_normal_wide, exp_wide, ierfcx, ln_1p, sin_cos_of_turn,
+};
 use crate::map::Map;
 use crate::microsurface::Microsurface;
 use crate::ndf::Vec3;
@@ -20,7 +22,7 @@ use crate::profile::{Profile, SampleProfile, SampleVisibleProfile, shape_invaria
 /// The difference of the first form loses all digits beyond a ≈ 3 in f32 and a ≈ 6 in f64; ierfcx is evaluated by
 /// an approximation of its own and loses none. D and Λ form the exponent in f64, because an error δ of the
 /// exponent is a relative error δ of the result: at five times α, rounding the exponent to f32 alone would cost
-/// 2e-6. D underflows to 0 far out, gradually.
+/// 2e-6. A subnormal D far out is 0, as is σ below the horizon where e^{−a²} is below 2⁻⁹² (f32) or 2⁻⁹⁷⁵ (f64).
 ///
 /// # Accuracy
 /// Relative, in units of ε of the scalar, f32 / f64 (budget rows `beckmann_*`):
@@ -52,25 +54,37 @@ impl<T: Real> Profile<T> for Beckmann {
     #[inline(always)]
     fn d<M: Map<Scalar = T>>(&self, map: &M, m: [T; 3], length2: T) -> T {
         let (q, z2) = map.normal_terms_wide(m);
-        let exponent = q / z2;
+        let half = T::Wide::HALF * (q / z2);
+        // Where the exponential is no normal number D is none either; 1/z² may overflow there.
+        let last = T::Wide::lit(if T::WIDENS { 87.0 } else { 708.0 });
+        let vanished = half > last;
+        let half = if vanished { last } else { half };
         // The root of the exponential beside that of 1/z⁴: neither leaves the range before their product does.
-        let root = length2 / T::narrow(z2) * exp_wide::<T>(-(T::Wide::HALF * exponent));
-        let d = map.scale() * (root * root);
-        // Towards the horizon 1/z² overflows after the exponential has vanished.
-        let vanished = T::Wide::lit(if T::WIDENS { 208.0 } else { 1492.0 });
-        if exponent > vanished { T::ZERO } else { d }
+        let root = length2 / T::narrow(z2) * exp_normal_wide::<T>(-half);
+        let root = if vanished { T::ZERO } else { root };
+        // A subnormal D is 0: a microcode assist each would slow batches down to half their speed.
+        let unit = T::lit(if T::WIDENS { 9223372036854775808.0 } else { 6.703903964971299e153 }); // 2⁶³, 2⁵¹¹
+        let scaled = map.scale() * root;
+        let subnormal = (unit * scaled) * (unit * root) < T::ONE;
+        scaled * if subnormal { T::ZERO } else { root }
     }
 
     #[inline(always)]
     fn sigma_above(&self, s2: T, z: T) -> T {
-        z + self.sigma_backfacing(s2, z)
+        let s = s2.sqrt();
+        // Beyond ν = 7 the second term is below 2⁻⁷⁷ of the first: its value there does as well.
+        let (nu, far) = (z / s, T::lit(7.0));
+        let nu = if nu > far { far } else { nu };
+        z + T::HALF * s * exp_normal(-(nu * nu)) * ierfcx(nu)
     }
 
     #[inline(always)]
     fn sigma_backfacing(&self, s2: T, z: T) -> T {
         let s = s2.sqrt();
-        let nu = z / s;
-        T::HALF * s * exp(-(nu * nu)) * ierfcx(nu)
+        let (nu, last) = (z / s, T::lit(if T::WIDENS { 8.0 } else { 26.0 }));
+        let (vanished, nu2) = (nu > last, nu * nu);
+        let area = T::HALF * s * exp_normal(-if vanished { T::ZERO } else { nu2 }) * ierfcx(nu);
+        if vanished { T::ZERO } else { area }
     }
 
     /// As the area of the facets that look away, with the exponent in the wide scalar.
