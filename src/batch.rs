@@ -3,12 +3,14 @@
 //! Every method takes slices and does for each element what the method of the same name without `_batch` does for one:
 //! the same body, inlined into a loop over blocks that the compiler turns into vector code. A renderer that has sorted its
 //! hits by material calls the methods on the material; one whose material changes from element to element calls the same
-//! methods on a slice of materials of one type, `[N]`, one for each element.
+//! methods on a slice of materials of one type, `[N]`, one for each element; one whose material is textured, or filtered over
+//! the footprint of each pixel, calls them on that material [`Varied`] by slices of numbers.
 //!
 //! | | |
 //! |---|---|
 //! | [`NdfBatch`] | D, σ, Λ, G1, G2, D_w, all and visible normals, of any [`Ndf`](crate::Ndf) |
 //! | [`ReflectionBatch`] | f, density, both together, and samples of a [`RoughConductor`](crate::bsdf::RoughConductor) |
+//! | [`map()`] | any function: mixtures of BSDFs, means over footprints, elementary functions |
 //!
 //! # Domain
 //! Any length, 0 included; a length that is no multiple of the block is filled up with copies of one of its elements, so
@@ -49,12 +51,19 @@ mod blocks;
 mod conductor;
 #[doc(hidden)]
 pub mod dispatch;
+mod filtered;
+mod map;
 mod material;
 mod ndf;
+mod varied;
 
+pub use blocks::{Sink, Source};
 pub use conductor::ReflectionBatch;
+pub use filtered::{Filtered, FilteredProjected, Footprints};
+pub use map::map;
 pub use material::{Material, Materials};
 pub use ndf::NdfBatch;
+pub use varied::{AlphaPairs, Alphas, Base, RoughnessMatrices, Variation, Varied};
 
 /// Unit vectors, their components in three slices of equal length.
 ///

@@ -74,6 +74,7 @@ pub trait Map: sealed::Sealed + Copy {
 }
 
 /// |det R|/π of a triangular R of this diagonal.
+#[inline(always)]
 fn scale<T: Real>(r11: T, r22: T) -> T {
     T::lit(r11.to_f64() * r22.to_f64() * core::f64::consts::FRAC_1_PI)
 }

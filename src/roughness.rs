@@ -104,6 +104,12 @@ impl<T: Real> RoughnessMatrix<T> {
         })
     }
 
+    /// The matrix of entries that [`new`](Self::new) has accepted.
+    #[inline(always)]
+    pub(crate) const fn of_checked(xx: T, xy: T, yy: T) -> Self {
+        Self { xx, xy, yy }
+    }
+
     /// The matrix with α = `alpha_x` along the direction at `angle` radians from x, and `alpha_y` across it.
     ///
     /// # Errors

@@ -18,36 +18,51 @@ pub trait Body<M, I> {
     fn of(&self, material: &M, input: I) -> Self::Out;
 }
 
-/// A batch's arguments: slices that are read.
+/// What a batch reads of each element. Sealed: slices, [`Directions`], [`Numbers`],
+/// [`Footprints`](crate::batch::Footprints), the numbers of a [`Varied`](crate::batch::Varied) material, and pairs and
+/// triples of them.
 pub trait Source: Copy {
+    /// A slice's element, an array of components, or a tuple of such.
     type Item;
     /// A block of its own, for a last one that is not full.
+    #[doc(hidden)]
     type Pad: Default;
+    #[doc(hidden)]
     type Block<'b>: Copy
     where
         Self: 'b;
     /// The first length that is not `len`.
+    #[doc(hidden)]
     fn uneven(self, len: usize) -> Option<usize>;
     /// The block from `start` on, which is below the length.
+    #[doc(hidden)]
     fn block<'b>(self, start: usize, pad: &'b mut Self::Pad) -> Self::Block<'b>
     where
         Self: 'b;
+    #[doc(hidden)]
     fn item<'b>(block: Self::Block<'b>, lane: usize) -> Self::Item
     where
         Self: 'b;
 }
 
-/// A batch's results: slices that are written.
+/// What a batch writes of each element. Sealed: slices, [`DirectionsMut`], [`Samples`], and pairs of slices.
 pub trait Sink {
+    /// A slice's element, or a tuple of components.
     type Item;
+    #[doc(hidden)]
     type Block;
-    fn len(&self) -> usize;
+    #[doc(hidden)]
+    fn count(&self) -> usize;
     /// The first length that is not `len`.
+    #[doc(hidden)]
     fn uneven(&self, len: usize) -> Option<usize>;
     /// A block to begin with; `None` where there is nothing to write.
+    #[doc(hidden)]
     fn first(&self) -> Option<Self::Block>;
+    #[doc(hidden)]
     fn put(block: &mut Self::Block, lane: usize, item: Self::Item);
     /// Writes the block from `start` on, as far as there is room.
+    #[doc(hidden)]
     fn write(&mut self, start: usize, block: &Self::Block);
 }
 
@@ -61,7 +76,7 @@ pub(super) fn each<P: Source, B: Body<M, I::Item, Out = O::Item>, M, R: Borrow<M
     mut output: O,
 ) {
     let Some(mut results) = output.first() else { return };
-    let len = output.len();
+    let len = output.count();
     let (mut material_pad, mut pad) = (P::Pad::default(), I::Pad::default());
     let mut start = 0;
     while start < len {
@@ -80,7 +95,7 @@ pub(super) fn each<P: Source, B: Body<M, I::Item, Out = O::Item>, M, R: Borrow<M
 /// Unless all slices are as long as the output's first.
 #[inline]
 pub(super) fn check<P: Source, I: Source, O: Sink>(materials: P, input: I, output: &O) {
-    let len = output.len();
+    let len = output.count();
     if let Some(other) = output.uneven(len).or_else(|| materials.uneven(len)).or_else(|| input.uneven(len)) {
         differ(len, other);
     }
@@ -135,12 +150,12 @@ impl<S: Copy> Sink for &mut [S] {
     type Item = S;
     type Block = [S; BLOCK];
     #[inline(always)]
-    fn len(&self) -> usize {
+    fn count(&self) -> usize {
         (**self).len()
     }
     #[inline(always)]
     fn uneven(&self, len: usize) -> Option<usize> {
-        unless(Sink::len(self), len)
+        unless(Sink::count(self), len)
     }
     #[inline(always)]
     fn first(&self) -> Option<Self::Block> {
@@ -218,8 +233,8 @@ macro_rules! composed {
             type Item = $item;
             type Block = ($(<$part as Sink>::Block,)*);
             #[inline(always)]
-            fn len(&self) -> usize {
-                Sink::len(&self.$first)
+            fn count(&self) -> usize {
+                Sink::count(&self.$first)
             }
             #[inline(always)]
             fn uneven(&self, len: usize) -> Option<usize> {
@@ -240,6 +255,8 @@ macro_rules! composed {
         }
     };
 }
+pub(super) use composed;
+
 composed!(source ['a, T: Copy] Directions<'a, T>, [T; 3] = (x: &'a [T] => 0, y: &'a [T] => 1, z: &'a [T] => 2), |v| v.into());
 composed!(source ['a, T: Copy] Numbers<'a, T>, [T; 2] = (x: &'a [T] => 0, y: &'a [T] => 1), |u| u.into());
 composed!(source [A: Source, B: Source] (A, B), (A::Item, B::Item) = (0: A => 0, 1: B => 1), |ab| ab);

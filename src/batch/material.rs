@@ -38,7 +38,8 @@ impl<N: Ndf + Copy, F: Copy, S: Copy> Material for RoughConductor<N, F, S> {
     }
 }
 
-/// One [`Material`] for all elements, or a slice with one for each. Sealed.
+/// One [`Material`] for all elements, a slice with one for each, or one [`Varied`](crate::batch::Varied) by numbers of each
+/// element. Sealed.
 pub trait Materials: sealed::Sealed {
     /// The type of the one, or of each.
     type Material: Material;
@@ -55,6 +56,7 @@ mod sealed {
     pub trait Sealed {}
     impl<M: super::Material> Sealed for M {}
     impl<M: super::Material> Sealed for [M] {}
+    impl<B, V> Sealed for crate::batch::Varied<'_, B, V> {}
 }
 
 impl<M: Material> Materials for M {
@@ -80,9 +82,22 @@ impl<M: Material> Materials for [M] {
         I: Source,
         O: Sink,
     {
-        check(self, input, &output);
-        run(Various { materials: self, body, input, output });
+        each_of(self, |material| material, body, input, output);
     }
+}
+
+/// `body` of every element and its own material, made of the element's numbers.
+#[inline(always)]
+pub(super) fn each_of<N, P, F, M, B, I, O>(numbers: P, material: F, body: B, input: I, output: O)
+where
+    P: Source<Item = N>,
+    F: Fn(N) -> M,
+    B: Body<M, I::Item, Out = O::Item>,
+    I: Source,
+    O: Sink,
+{
+    check(numbers, input, &output);
+    run(Various { numbers, material, body, input, output });
 }
 
 /// One material for all elements.
@@ -115,16 +130,24 @@ impl<M: Material, B: Body<M, I::Item, Out = O::Item>, I: Source, O: Sink> Kernel
 }
 
 /// A material for each element.
-struct Various<'a, M, B, I, O> {
-    materials: &'a [M],
+struct Various<P, F, B, I, O> {
+    numbers: P,
+    material: F,
     body: B,
     input: I,
     output: O,
 }
 
-impl<M: Material, B: Body<M, I::Item, Out = O::Item>, I: Source, O: Sink> Kernel for Various<'_, M, B, I, O> {
+impl<P, F, M, B, I, O> Kernel for Various<P, F, B, I, O>
+where
+    P: Source,
+    F: Fn(P::Item) -> M,
+    B: Body<M, I::Item, Out = O::Item>,
+    I: Source,
+    O: Sink,
+{
     #[inline(always)]
     fn run(self) {
-        each(self.materials, |material| material, &self.body, self.input, self.output);
+        each(self.numbers, self.material, &self.body, self.input, self.output);
     }
 }

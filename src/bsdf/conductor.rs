@@ -76,6 +76,12 @@ impl<N, F, S> RoughConductor<N, F, S> {
         &self.surface
     }
 
+    /// The same on another microsurface.
+    #[inline(always)]
+    pub(crate) fn with_surface<R>(self, surface: R) -> RoughConductor<R, F, S> {
+        RoughConductor { surface, fresnel: self.fresnel, sampling: self.sampling }
+    }
+
     /// The same with its surface in a known form; see [`Ndf::with_form`].
     #[inline(always)]
     pub(crate) fn with_surface_form(self, form: usize) -> Self

@@ -58,6 +58,16 @@ impl<P: ShapeInvariant, M: Map> Microsurface<P, M> {
         Ok(Microsurface::new(*self.profile(), map))
     }
 
+    /// [`filtered`](Self::filtered) for a Σ whose result the caller knows to be in range.
+    #[inline(always)]
+    pub(crate) fn filtered_in_range(
+        &self,
+        covariance: Covariance<M::Scalar>,
+    ) -> Microsurface<P, Linear<M::Scalar>> {
+        let gram = sum(factor(self.map()), covariance.factor(), 2.0);
+        Microsurface::new(*self.profile(), Linear::triangular(gram))
+    }
+
     /// How much filtering with Σ would change P22 at most, as a share of its peak: what is lost without.
     ///
     /// max |P22' − P22|/P22(0) = 1 − √(det A/det(A + 2Σ)), at slope 0. Below the error that a picture may show, filtering

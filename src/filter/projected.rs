@@ -89,9 +89,23 @@ pub fn filtered_by<M: Map>(
     surface: &Microsurface<Ggx, M>,
     covariance: Covariance<M::Scalar>,
 ) -> Result<Microsurface<Ggx, Linear<M::Scalar>>, Error> {
-    let c = covariance.factor().map(|entry| core::f64::consts::SQRT_2 * entry);
-    let map = Linear::of_gram(convolved(factor(surface.map()), c)).ok_or_else(|| covariance.refused())?;
+    let map = Linear::of_gram(gram(surface, covariance)).ok_or_else(|| covariance.refused())?;
     Ok(Microsurface::new(*surface.profile(), map))
+}
+
+/// [`filtered_by`] for a Σ whose result the caller knows to be in range.
+#[inline(always)]
+pub(crate) fn filtered_in_range<M: Map>(
+    surface: &Microsurface<Ggx, M>,
+    covariance: Covariance<M::Scalar>,
+) -> Microsurface<Ggx, Linear<M::Scalar>> {
+    Microsurface::new(*surface.profile(), Linear::triangular(gram(surface, covariance)))
+}
+
+#[inline(always)]
+fn gram<M: Map>(surface: &Microsurface<Ggx, M>, covariance: Covariance<M::Scalar>) -> Gram {
+    let c = covariance.factor().map(|entry| core::f64::consts::SQRT_2 * entry);
+    convolved(factor(surface.map()), c)
 }
 
 /// A + (BCᵀ)(I + CBCᵀ)⁻¹(CB) of A = RᵀR and triangular C.

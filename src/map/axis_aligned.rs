@@ -32,14 +32,19 @@ impl<T: Real> AxisAligned<T> {
     /// [`Error::Alpha`] unless both are within [`alpha_range`](crate::roughness::alpha_range).
     #[inline]
     pub fn new(alpha_x: T, alpha_y: T) -> Result<Self, Error> {
-        let (alpha_x, alpha_y) = (checked(alpha_x)?, checked(alpha_y)?);
-        Ok(Self {
+        Ok(Self::of_checked(checked(alpha_x)?, checked(alpha_y)?))
+    }
+
+    /// The map diag(1/αx, 1/αy) of widths that have been checked.
+    #[inline(always)]
+    pub(crate) fn of_checked(alpha_x: T, alpha_y: T) -> Self {
+        Self {
             alpha_x,
             alpha_y,
             aspect: [alpha_y / alpha_x, alpha_x / alpha_y],
             area: alpha_x * alpha_y,
             scale: scale(alpha_x, alpha_y),
-        })
+        }
     }
 
     pub(super) fn of_map(alpha_x: T, alpha_y: T) -> Result<Self, Error> {

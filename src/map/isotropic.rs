@@ -30,14 +30,19 @@ impl<T: Real> Isotropic<T> {
     /// [`Error::Alpha`] unless α is within [`alpha_range`](crate::roughness::alpha_range).
     #[inline]
     pub fn new(alpha: T) -> Result<Self, Error> {
-        let alpha = checked(alpha)?;
-        Ok(Self { alpha, alpha2: alpha * alpha, scale: scale(alpha, alpha) })
+        Ok(Self::of_checked(checked(alpha)?))
+    }
+
+    /// The map I/α of an α that has been checked.
+    #[inline(always)]
+    pub(crate) fn of_checked(alpha: T) -> Self {
+        Self { alpha, alpha2: alpha * alpha, scale: scale(alpha, alpha) }
     }
 
     /// I: the profile as it is.
     #[inline]
     pub(crate) fn unit() -> Self {
-        Self { alpha: T::ONE, alpha2: T::ONE, scale: scale(T::ONE, T::ONE) }
+        Self::of_checked(T::ONE)
     }
 
     /// α.

@@ -55,7 +55,7 @@ impl<T: Real> Linear<T> {
 
     /// The map of a positive definite RᵀR: Cholesky's factor.
     #[inline(always)]
-    fn triangular(Gram { xx, xy, root, .. }: Gram) -> Self {
+    pub(crate) fn triangular(Gram { xx, xy, root, .. }: Gram) -> Self {
         let r11 = Real::sqrt(xx);
         let [r11, r12, r22] = [r11, xy / r11, root / r11].map(T::lit);
         Self::stored(r11, r12, r22)

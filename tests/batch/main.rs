@@ -5,6 +5,8 @@
 #![expect(clippy::cast_precision_loss, reason = "counts and random bits become numbers")]
 #![expect(clippy::float_cmp, reason = "what was not written must be as it was")]
 
+mod varied;
+
 use core::panic::AssertUnwindSafe;
 use std::panic::catch_unwind;
 
@@ -270,6 +272,8 @@ fn every_entry_point_is_the_scalar_call_at_every_level() {
         if used == limit {
             everything::<f32>();
             everything::<f64>();
+            varied::everything::<f32>();
+            varied::everything::<f64>();
         }
     }
     assert_eq!(limit_to(highest()), highest());

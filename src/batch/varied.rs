@@ -1,0 +1,225 @@
+//! Materials that differ between elements by a few numbers: textures of widths, footprints of pixels.
+
+use crate::Real;
+use crate::batch::Directions;
+use crate::batch::blocks::{Body, Sink, Source, composed};
+use crate::batch::material::{Material, Materials, each_of};
+use crate::bsdf::RoughConductor;
+use crate::error::Error;
+use crate::map::{AxisAligned, Isotropic, Linear, Map};
+use crate::microsurface::Microsurface;
+use crate::profile::ShapeInvariant;
+use crate::roughness::{RoughnessMatrix, alpha_range};
+
+/// One material, varied by numbers of each element: the structure of arrays of a textured or filtered material.
+///
+/// Nothing is stored but the material and the slices: the surface of an element is made in the loop that uses it, of its
+/// own numbers, and only what the loop needs of it. Every batch of the material is one of the varied material too.
+///
+/// | varied by | the surface of an element | its map |
+/// |---|---|---|
+/// | [`Alphas`] | of that α | [`Isotropic`] |
+/// | [`AlphaPairs`] | of that αx and αy | [`AxisAligned`] |
+/// | [`RoughnessMatrices`] | of that A | [`Linear`] |
+/// | [`Filtered`](crate::batch::Filtered) | filtered: A + 2Σ, with the Σ of its footprint | [`Linear`] |
+/// | [`FilteredProjected`](crate::batch::FilteredProjected) | filtered in projected space (GGX) | [`Linear`] |
+///
+/// The first three replace whatever width the material has. They are for the profiles whose width is that of the map, GGX and
+/// Beckmann; of GTR take a slice of surfaces.
+///
+/// # Example
+/// A texture of α, and the same with the footprint of each pixel.
+/// ```
+/// use microsurface::batch::{Alphas, Directions, ReflectionBatch, Varied};
+/// use microsurface::{Ggx, bsdf::RoughConductor, fresnel::Schlick, glam::Vec3};
+/// let metal = RoughConductor::new(Ggx::isotropic(0.2_f32)?, Schlick::new(0.9_f32));
+/// let wi = Directions { x: &[-0.6, 0.0], y: &[0.0, 0.6], z: &[0.8, 0.8] };
+/// let wo = Directions { x: &[0.6, 0.0], y: &[0.0, -0.6], z: &[0.8, 0.8] };
+/// let textured = Varied::new(&metal, Alphas::new(&[0.1, 0.4])?);
+/// let mut f = [0.0; 2];
+/// textured.eval_batch(wi, wo, &mut f);
+/// let rough = RoughConductor::new(Ggx::isotropic(0.4_f32)?, Schlick::new(0.9_f32));
+/// assert_eq!(f[1], rough.eval(Vec3::new(0.0, 0.6, 0.8), Vec3::new(0.0, -0.6, 0.8)));
+/// # Ok::<(), microsurface::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Varied<'a, B, V> {
+    material: &'a B,
+    by: V,
+}
+
+impl<'a, B: Base, V: Variation<B::Surface>> Varied<'a, B, V> {
+    /// The material varied by numbers of each element.
+    #[inline]
+    #[must_use]
+    pub const fn new(material: &'a B, by: V) -> Self {
+        Self { material, by }
+    }
+}
+
+/// What can be varied: a microsurface, or a BSDF on one. Sealed: [`Microsurface`], [`RoughConductor`].
+pub trait Base: Copy {
+    #[doc(hidden)]
+    type Surface;
+    #[doc(hidden)]
+    type On<N>;
+    #[doc(hidden)]
+    fn base_surface(&self) -> &Self::Surface;
+    #[doc(hidden)]
+    fn on<N>(self, surface: N) -> Self::On<N>;
+}
+
+impl<P: Copy, M: Copy> Base for Microsurface<P, M> {
+    type Surface = Self;
+    type On<N> = N;
+    #[inline(always)]
+    fn base_surface(&self) -> &Self {
+        self
+    }
+    #[inline(always)]
+    fn on<N>(self, surface: N) -> N {
+        surface
+    }
+}
+
+impl<N0: Copy, F: Copy, S: Copy> Base for RoughConductor<N0, F, S> {
+    type Surface = N0;
+    type On<N> = RoughConductor<N, F, S>;
+    #[inline(always)]
+    fn base_surface(&self) -> &N0 {
+        self.surface()
+    }
+    #[inline(always)]
+    fn on<N>(self, surface: N) -> RoughConductor<N, F, S> {
+        self.with_surface(surface)
+    }
+}
+
+/// Numbers of each element that make a surface of a surface `N`. Sealed, see [`Varied`].
+pub trait Variation<N>: Source {
+    #[doc(hidden)]
+    type Surface;
+    #[doc(hidden)]
+    fn varied(&self, surface: &N, numbers: Self::Item) -> Self::Surface;
+}
+
+impl<B, V> Materials for Varied<'_, B, V>
+where
+    B: Base,
+    V: Variation<B::Surface>,
+    B::On<V::Surface>: Material,
+{
+    type Material = B::On<V::Surface>;
+    #[inline]
+    fn each<C, I, O>(&self, body: C, input: I, output: O)
+    where
+        C: Body<Self::Material, I::Item, Out = O::Item>,
+        I: Source,
+        O: Sink,
+    {
+        let (base, by) = (*self.material, self.by);
+        each_of(by, |numbers| base.on(by.varied(base.base_surface(), numbers)), body, input, output);
+    }
+}
+
+/// The first number that is not a width.
+///
+/// # Errors
+/// [`Error::Alpha`] with it.
+fn check_alphas<T: Real>(alphas: &[T]) -> Result<(), Error> {
+    let (smallest, largest) = alpha_range::<T>();
+    let valid = |&alpha: &T| alpha >= smallest && alpha <= largest;
+    // Without an early end this is vector code; the culprit is looked for where there is one.
+    if alphas.iter().fold(true, |all, alpha| all & valid(alpha)) {
+        return Ok(());
+    }
+    alphas.iter().find(|alpha| !valid(alpha)).map_or(Ok(()), |&alpha| Err(Error::alpha(alpha)))
+}
+
+/// A width α for each element.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Alphas<'a, T> {
+    alpha: &'a [T],
+}
+
+impl<'a, T: Real> Alphas<'a, T> {
+    /// These widths.
+    ///
+    /// # Errors
+    /// [`Error::Alpha`] with the first that is not within [`alpha_range`]; see
+    /// [`clamped`](crate::roughness::clamped) for textures that hold 0.
+    pub fn new(alpha: &'a [T]) -> Result<Self, Error> {
+        check_alphas(alpha)?;
+        Ok(Self { alpha })
+    }
+}
+
+impl<P: ShapeInvariant, M: Copy, T: Real> Variation<Microsurface<P, M>> for Alphas<'_, T> {
+    type Surface = Microsurface<P, Isotropic<T>>;
+    #[inline(always)]
+    fn varied(&self, surface: &Microsurface<P, M>, alpha: T) -> Self::Surface {
+        Microsurface::new(*surface.profile(), Isotropic::of_checked(alpha))
+    }
+}
+
+/// Widths αx and αy for each element.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AlphaPairs<'a, T> {
+    x: &'a [T],
+    y: &'a [T],
+}
+
+impl<'a, T: Real> AlphaPairs<'a, T> {
+    /// These widths along x and along y, of equal number.
+    ///
+    /// # Errors
+    /// [`Error::Alpha`] with the first that is not within [`alpha_range`].
+    pub fn new(x: &'a [T], y: &'a [T]) -> Result<Self, Error> {
+        check_alphas(x)?;
+        check_alphas(y)?;
+        Ok(Self { x, y })
+    }
+}
+
+impl<P: ShapeInvariant, M: Copy, T: Real> Variation<Microsurface<P, M>> for AlphaPairs<'_, T> {
+    type Surface = Microsurface<P, AxisAligned<T>>;
+    #[inline(always)]
+    fn varied(&self, surface: &Microsurface<P, M>, [x, y]: [T; 2]) -> Self::Surface {
+        Microsurface::new(*surface.profile(), AxisAligned::of_checked(x, y))
+    }
+}
+
+/// A [`RoughnessMatrix`] for each element, by entries.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RoughnessMatrices<'a, T> {
+    entries: Directions<'a, T>,
+}
+
+impl<'a, T: Real> RoughnessMatrices<'a, T> {
+    /// The matrices of these entries, three slices of equal length.
+    ///
+    /// # Errors
+    /// [`Error::RoughnessMatrix`] with the first that [`RoughnessMatrix::new`] refuses.
+    ///
+    /// # Panics
+    /// Where the slices differ in length.
+    pub fn new(xx: &'a [T], xy: &'a [T], yy: &'a [T]) -> Result<Self, Error> {
+        assert!(xx.len() == xy.len() && xx.len() == yy.len(), "entries of matrices differ in number");
+        for ((&xx, &xy), &yy) in xx.iter().zip(xy).zip(yy) {
+            RoughnessMatrix::new(xx, xy, yy)?;
+        }
+        Ok(Self { entries: Directions { x: xx, y: xy, z: yy } })
+    }
+}
+
+impl<P: ShapeInvariant, M: Map> Variation<Microsurface<P, M>> for RoughnessMatrices<'_, M::Scalar> {
+    type Surface = Microsurface<P, Linear<M::Scalar>>;
+    #[inline(always)]
+    fn varied(&self, surface: &Microsurface<P, M>, [xx, xy, yy]: [M::Scalar; 3]) -> Self::Surface {
+        Microsurface::new(*surface.profile(), RoughnessMatrix::of_checked(xx, xy, yy).into())
+    }
+}
+
+composed!(source ['a, T: Copy] Alphas<'a, T>, T = (alpha: &'a [T] => 0), |alpha| alpha.0);
+composed!(source ['a, T: Copy] AlphaPairs<'a, T>, [T; 2] = (x: &'a [T] => 0, y: &'a [T] => 1), |alphas| alphas.into());
+composed!(source ['a, T: Copy] RoughnessMatrices<'a, T>, [T; 3] = (entries: Directions<'a, T> => 0), |entries| entries.0);
