@@ -21,7 +21,7 @@ fn width<T: Real>(i: usize, k: usize) -> T {
 fn step<T: Real>(i: usize, k: usize) -> T {
     match i % 9 {
         2 => T::ZERO,
-        4 => T::lit(0.01 * (i as f64)) * if k % 2 == 0 { T::ONE } else { T::TWO },
+        4 => T::lit(0.01 * (i as f64)) * if k.is_multiple_of(2) { T::ONE } else { T::TWO },
         6 if k < 2 => T::ZERO,
         _ => T::lit(0.5 - 0.569840290998 * (i + 17 * k) as f64 % 1.0),
     }
