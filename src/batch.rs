@@ -10,7 +10,7 @@
 //! |---|---|
 //! | [`NdfBatch`] | D, σ, Λ, G1, G2, D_w, all and visible normals, of any [`Ndf`](crate::Ndf) |
 //! | [`ReflectionBatch`] | f, density, both together, and samples of a [`RoughConductor`](crate::bsdf::RoughConductor) |
-//! | [`map()`] | any function: mixtures of BSDFs, means over footprints, elementary functions |
+//! | [`map()`] | any function: mixtures of BSDFs, means over footprints, elementary functions; [`map_inlined`] |
 //!
 //! # Domain
 //! Any length, 0 included; a length that is no multiple of the block is filled up with copies of one of its elements, so
@@ -60,7 +60,7 @@ mod varied;
 pub use blocks::{Sink, Source};
 pub use conductor::ReflectionBatch;
 pub use filtered::{Filtered, FilteredProjected, Footprints};
-pub use map::map;
+pub use map::{Function, map, map_inlined};
 pub use material::{Material, Materials};
 pub use ndf::NdfBatch;
 pub use varied::{AlphaPairs, Alphas, Base, RoughnessMatrices, Variation, Varied};

@@ -6,6 +6,7 @@
 //! target: compare with `RUSTFLAGS="-C target-cpu=native"`.
 
 mod entry;
+mod varied;
 
 use core::cell::RefCell;
 use core::hint::black_box;
@@ -172,6 +173,8 @@ pub(crate) fn bench(criterion: &mut Criterion) {
         gtr::<f64>(criterion, n);
         entry::bench::<f32>(criterion, n);
         entry::bench::<f64>(criterion, n);
+        varied::bench::<f32>(criterion, n);
+        varied::bench::<f64>(criterion, n);
     }
 }
 

@@ -18,6 +18,13 @@ pub trait Body<M, I> {
     fn of(&self, material: &M, input: I) -> Self::Out;
 }
 
+/// The material of an element, of what is read of it. Not a closure: nothing makes sure that a large one is inlined.
+pub(super) trait Maker<I> {
+    type Material;
+    type Made: Borrow<Self::Material>;
+    fn made(&self, item: I) -> Self::Made;
+}
+
 /// What a batch reads of each element. Sealed: slices, [`Directions`], [`Numbers`],
 /// [`Footprints`](crate::batch::Footprints), the numbers of a [`Varied`](crate::batch::Varied) material, and pairs and
 /// triples of them.
@@ -68,22 +75,23 @@ pub trait Sink {
 
 /// `body` of every element.
 #[inline(always)]
-pub(super) fn each<P: Source, B: Body<M, I::Item, Out = O::Item>, M, R: Borrow<M>, I: Source, O: Sink>(
-    materials: P,
-    material: impl Fn(P::Item) -> R,
-    body: &B,
-    input: I,
-    mut output: O,
-) {
+pub(super) fn each<P, M, B, I, O>(numbers: P, maker: &M, body: &B, input: I, mut output: O)
+where
+    P: Source,
+    M: Maker<P::Item>,
+    B: Body<M::Material, I::Item, Out = O::Item>,
+    I: Source,
+    O: Sink,
+{
     let Some(mut results) = output.first() else { return };
     let len = output.count();
-    let (mut material_pad, mut pad) = (P::Pad::default(), I::Pad::default());
+    let (mut numbers_pad, mut pad) = (P::Pad::default(), I::Pad::default());
     let mut start = 0;
     while start < len {
-        let of = materials.block(start, &mut material_pad);
+        let of = numbers.block(start, &mut numbers_pad);
         let arguments = input.block(start, &mut pad);
         for lane in 0..BLOCK {
-            let material = material(P::item(of, lane));
+            let material = maker.made(P::item(of, lane));
             O::put(&mut results, lane, body.of(material.borrow(), I::item(arguments, lane)));
         }
         output.write(start, &results);

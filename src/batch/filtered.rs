@@ -54,11 +54,11 @@ impl<'a, T: Real> Kernels<'a, T> {
             yy: entry(uy, uy, vy, vy),
         })
     }
+}
 
-    #[inline(always)]
-    fn covariance(&self, [ux, uy, vx, vy]: [T; 4]) -> Covariance<T> {
-        Footprint::<T>::new([ux, uy].into(), [vx, vy].into()).covariance(self.variance)
-    }
+#[inline(always)]
+fn covariance<T: Real>([ux, uy, vx, vy]: [T; 4], variance: T) -> Covariance<T> {
+    Footprint::<T>::new([ux, uy].into(), [vx, vy].into()).covariance(variance)
 }
 
 macro_rules! filtered {
@@ -112,17 +112,27 @@ filtered!(
 
 impl<P: ShapeInvariant, M: Map> Variation<Microsurface<P, M>> for Filtered<'_, M::Scalar> {
     type Surface = Microsurface<P, Linear<M::Scalar>>;
+    type Prepared = (Microsurface<P, M>, M::Scalar);
     #[inline(always)]
-    fn varied(&self, surface: &Microsurface<P, M>, steps: [M::Scalar; 4]) -> Self::Surface {
-        surface.filtered_in_range(self.kernels.covariance(steps))
+    fn prepared(&self, surface: &Microsurface<P, M>) -> Self::Prepared {
+        (*surface, self.kernels.variance)
+    }
+    #[inline(always)]
+    fn varied((surface, variance): &Self::Prepared, steps: [M::Scalar; 4]) -> Self::Surface {
+        surface.filtered_in_range(covariance(steps, *variance))
     }
 }
 
 impl<M: Map> Variation<Microsurface<Ggx, M>> for FilteredProjected<'_, M::Scalar> {
     type Surface = Microsurface<Ggx, Linear<M::Scalar>>;
+    type Prepared = (projected::OnDisc, M::Scalar);
     #[inline(always)]
-    fn varied(&self, surface: &Microsurface<Ggx, M>, steps: [M::Scalar; 4]) -> Self::Surface {
-        projected::filtered_in_range(surface, self.kernels.covariance(steps))
+    fn prepared(&self, surface: &Microsurface<Ggx, M>) -> Self::Prepared {
+        (projected::OnDisc::new(surface.map()), self.kernels.variance)
+    }
+    #[inline(always)]
+    fn varied((surface, variance): &Self::Prepared, steps: [M::Scalar; 4]) -> Self::Surface {
+        Microsurface::new(Ggx, Linear::triangular(surface.convolved(covariance(steps, *variance))))
     }
 }
 

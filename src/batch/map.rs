@@ -1,12 +1,13 @@
 //! Any function of each element.
 
-use crate::batch::blocks::{Body, Sink, Source, check, each};
-use crate::batch::dispatch::{Kernel, run};
+use crate::batch::blocks::{Body, Sink, Source};
+use crate::batch::material::{Shared, each_of};
 
 /// `f` of every element, compiled for each level of the instruction set like every batch: for what has no entry point of its
 /// own, such as mixtures of BSDFs, filters, and the [`elementary`](crate::elementary) functions.
 ///
-/// Where `f` is straight-line code, as most of the crate is, the loop becomes vector code.
+/// Where `f` is straight-line code, as most of the crate is, the loop becomes vector code; of a large closure take [`map_inlined`].
+/// Means over footprints choose between several forms and remain scalar.
 ///
 /// # Panics
 /// Where slices differ in length; nothing has been written then. Where `f` panics.
@@ -38,30 +39,59 @@ use crate::batch::dispatch::{Kernel, run};
 /// ```
 #[inline]
 pub fn map<I: Source, O: Sink>(input: I, output: O, f: impl Fn(I::Item) -> O::Item) {
-    check((), input, &output);
-    run(Map { f, input, output });
+    struct Closure<F>(F);
+    impl<F: Fn(I) -> Out, I, Out> Function<I> for Closure<F> {
+        type Out = Out;
+        #[inline(always)]
+        fn of(&self, input: I) -> Out {
+            self.0(input)
+        }
+    }
+    map_inlined(input, output, Closure(f));
 }
 
-struct Map<F, I, O> {
-    f: F,
-    input: I,
-    output: O,
+/// A function of an element, for [`map_inlined`].
+pub trait Function<I> {
+    /// What it gives.
+    type Out;
+    /// Its value; to be marked `#[inline(always)]`.
+    fn of(&self, input: I) -> Self::Out;
+}
+
+/// [`map()`] of a function that is no closure: of a large closure nothing makes sure that it becomes part of the loop, and where it
+/// stays a call the loop is scalar.
+///
+/// # Panics
+/// As [`map()`].
+///
+/// # Example
+/// ```
+/// use microsurface::batch::{self, Function};
+/// use microsurface::elementary::{erfc, exp};
+/// struct Scaled(f32);
+/// impl Function<f32> for Scaled {
+///     type Out = f32;
+///     #[inline(always)]
+///     fn of(&self, x: f32) -> f32 {
+///         exp(self.0 * x) * erfc(x)
+///     }
+/// }
+/// let mut y = [0.0; 3];
+/// batch::map_inlined(&[0.0, 1.0, 2.0][..], &mut y[..], Scaled(0.5));
+/// assert_eq!(y[1], exp(0.5_f32) * erfc(1.0_f32));
+/// ```
+#[inline]
+pub fn map_inlined<I: Source, O: Sink>(input: I, output: O, f: impl Function<I::Item, Out = O::Item>) {
+    each_of((), Shared(&()), Of(f), input, output);
 }
 
 /// The body of a function alone.
 struct Of<F>(F);
 
-impl<F: Fn(I) -> O, I, O> Body<(), I> for Of<F> {
-    type Out = O;
+impl<F: Function<I>, I> Body<(), I> for Of<F> {
+    type Out = F::Out;
     #[inline(always)]
-    fn of(&self, (): &(), input: I) -> O {
-        (self.0)(input)
-    }
-}
-
-impl<F: Fn(I::Item) -> O::Item, I: Source, O: Sink> Kernel for Map<F, I, O> {
-    #[inline(always)]
-    fn run(self) {
-        each((), |()| (), &Of(self.f), self.input, self.output);
+    fn of(&self, (): &(), input: I) -> F::Out {
+        self.0.of(input)
     }
 }

@@ -1,6 +1,6 @@
 //! One material for all elements, or one for each.
 
-use crate::batch::blocks::{Body, Sink, Source, check, each};
+use crate::batch::blocks::{Body, Maker, Sink, Source, check, each};
 use crate::batch::dispatch::{Kernel, run};
 use crate::bsdf::RoughConductor;
 use crate::ndf::Ndf;
@@ -82,22 +82,44 @@ impl<M: Material> Materials for [M] {
         I: Source,
         O: Sink,
     {
-        each_of(self, |material| material, body, input, output);
+        each_of(self, Own, body, input, output);
     }
 }
 
 /// `body` of every element and its own material, made of the element's numbers.
 #[inline(always)]
-pub(super) fn each_of<N, P, F, M, B, I, O>(numbers: P, material: F, body: B, input: I, output: O)
+pub(super) fn each_of<P, M, B, I, O>(numbers: P, maker: M, body: B, input: I, output: O)
 where
-    P: Source<Item = N>,
-    F: Fn(N) -> M,
-    B: Body<M, I::Item, Out = O::Item>,
+    P: Source,
+    M: Maker<P::Item>,
+    B: Body<M::Material, I::Item, Out = O::Item>,
     I: Source,
     O: Sink,
 {
     check(numbers, input, &output);
-    run(Various { numbers, material, body, input, output });
+    run(Various { numbers, maker, body, input, output });
+}
+
+/// An element's own material, as it is.
+struct Own;
+impl<M> Maker<M> for Own {
+    type Material = M;
+    type Made = M;
+    #[inline(always)]
+    fn made(&self, material: M) -> M {
+        material
+    }
+}
+
+/// One material, of nothing.
+pub(super) struct Shared<'a, M>(pub(super) &'a M);
+impl<'a, M> Maker<()> for Shared<'a, M> {
+    type Material = M;
+    type Made = &'a M;
+    #[inline(always)]
+    fn made(&self, (): ()) -> &'a M {
+        self.0
+    }
 }
 
 /// One material for all elements.
@@ -111,7 +133,7 @@ struct Same<'a, M, B, I, O> {
 impl<M: Material, B: Body<M, I::Item, Out = O::Item>, I: Source, O: Sink> Same<'_, M, B, I, O> {
     #[inline(always)]
     fn all(self, material: M) {
-        each((), |()| &material, &self.body, self.input, self.output);
+        each((), &Shared(&material), &self.body, self.input, self.output);
     }
 }
 
@@ -130,24 +152,24 @@ impl<M: Material, B: Body<M, I::Item, Out = O::Item>, I: Source, O: Sink> Kernel
 }
 
 /// A material for each element.
-struct Various<P, F, B, I, O> {
+struct Various<P, M, B, I, O> {
     numbers: P,
-    material: F,
+    maker: M,
     body: B,
     input: I,
     output: O,
 }
 
-impl<P, F, M, B, I, O> Kernel for Various<P, F, B, I, O>
+impl<P, M, B, I, O> Kernel for Various<P, M, B, I, O>
 where
     P: Source,
-    F: Fn(P::Item) -> M,
-    B: Body<M, I::Item, Out = O::Item>,
+    M: Maker<P::Item>,
+    B: Body<M::Material, I::Item, Out = O::Item>,
     I: Source,
     O: Sink,
 {
     #[inline(always)]
     fn run(self) {
-        each(self.numbers, self.material, &self.body, self.input, self.output);
+        each(self.numbers, &self.maker, &self.body, self.input, self.output);
     }
 }

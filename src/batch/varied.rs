@@ -2,7 +2,7 @@
 
 use crate::Real;
 use crate::batch::Directions;
-use crate::batch::blocks::{Body, Sink, Source, composed};
+use crate::batch::blocks::{Body, Maker, Sink, Source, composed};
 use crate::batch::material::{Material, Materials, each_of};
 use crate::bsdf::RoughConductor;
 use crate::error::Error;
@@ -99,8 +99,13 @@ impl<N0: Copy, F: Copy, S: Copy> Base for RoughConductor<N0, F, S> {
 pub trait Variation<N>: Source {
     #[doc(hidden)]
     type Surface;
+    /// What depends on the surface alone.
     #[doc(hidden)]
-    fn varied(&self, surface: &N, numbers: Self::Item) -> Self::Surface;
+    type Prepared;
+    #[doc(hidden)]
+    fn prepared(&self, surface: &N) -> Self::Prepared;
+    #[doc(hidden)]
+    fn varied(prepared: &Self::Prepared, numbers: Self::Item) -> Self::Surface;
 }
 
 impl<B, V> Materials for Varied<'_, B, V>
@@ -117,8 +122,23 @@ where
         I: Source,
         O: Sink,
     {
-        let (base, by) = (*self.material, self.by);
-        each_of(by, |numbers| base.on(by.varied(base.base_surface(), numbers)), body, input, output);
+        let prepared = self.by.prepared(self.material.base_surface());
+        each_of(self.by, Variant::<B, V> { base: *self.material, prepared }, body, input, output);
+    }
+}
+
+/// The material of an element: a base with the surface of the element's numbers.
+struct Variant<B: Base, V: Variation<B::Surface>> {
+    base: B,
+    prepared: V::Prepared,
+}
+
+impl<B: Base, V: Variation<B::Surface>> Maker<V::Item> for Variant<B, V> {
+    type Material = B::On<V::Surface>;
+    type Made = B::On<V::Surface>;
+    #[inline(always)]
+    fn made(&self, numbers: V::Item) -> B::On<V::Surface> {
+        self.base.on(V::varied(&self.prepared, numbers))
     }
 }
 
@@ -156,9 +176,14 @@ impl<'a, T: Real> Alphas<'a, T> {
 
 impl<P: ShapeInvariant, M: Copy, T: Real> Variation<Microsurface<P, M>> for Alphas<'_, T> {
     type Surface = Microsurface<P, Isotropic<T>>;
+    type Prepared = P;
     #[inline(always)]
-    fn varied(&self, surface: &Microsurface<P, M>, alpha: T) -> Self::Surface {
-        Microsurface::new(*surface.profile(), Isotropic::of_checked(alpha))
+    fn prepared(&self, surface: &Microsurface<P, M>) -> P {
+        *surface.profile()
+    }
+    #[inline(always)]
+    fn varied(&profile: &P, alpha: T) -> Self::Surface {
+        Microsurface::new(profile, Isotropic::of_checked(alpha))
     }
 }
 
@@ -183,9 +208,14 @@ impl<'a, T: Real> AlphaPairs<'a, T> {
 
 impl<P: ShapeInvariant, M: Copy, T: Real> Variation<Microsurface<P, M>> for AlphaPairs<'_, T> {
     type Surface = Microsurface<P, AxisAligned<T>>;
+    type Prepared = P;
     #[inline(always)]
-    fn varied(&self, surface: &Microsurface<P, M>, [x, y]: [T; 2]) -> Self::Surface {
-        Microsurface::new(*surface.profile(), AxisAligned::of_checked(x, y))
+    fn prepared(&self, surface: &Microsurface<P, M>) -> P {
+        *surface.profile()
+    }
+    #[inline(always)]
+    fn varied(&profile: &P, [x, y]: [T; 2]) -> Self::Surface {
+        Microsurface::new(profile, AxisAligned::of_checked(x, y))
     }
 }
 
@@ -214,9 +244,14 @@ impl<'a, T: Real> RoughnessMatrices<'a, T> {
 
 impl<P: ShapeInvariant, M: Map> Variation<Microsurface<P, M>> for RoughnessMatrices<'_, M::Scalar> {
     type Surface = Microsurface<P, Linear<M::Scalar>>;
+    type Prepared = P;
     #[inline(always)]
-    fn varied(&self, surface: &Microsurface<P, M>, [xx, xy, yy]: [M::Scalar; 3]) -> Self::Surface {
-        Microsurface::new(*surface.profile(), RoughnessMatrix::of_checked(xx, xy, yy).into())
+    fn prepared(&self, surface: &Microsurface<P, M>) -> P {
+        *surface.profile()
+    }
+    #[inline(always)]
+    fn varied(&profile: &P, [xx, xy, yy]: [M::Scalar; 3]) -> Self::Surface {
+        Microsurface::new(profile, RoughnessMatrix::of_checked(xx, xy, yy).into())
     }
 }
 

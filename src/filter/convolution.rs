@@ -58,7 +58,7 @@ impl<P: ShapeInvariant, M: Map> Microsurface<P, M> {
         Ok(Microsurface::new(*self.profile(), map))
     }
 
-    /// [`filtered`](Self::filtered) for a Σ whose result the caller knows to be in range.
+    /// [`filtered`](Self::filtered) by a Σ whose result the caller knows to be in range.
     #[inline(always)]
     pub(crate) fn filtered_in_range(
         &self,

@@ -121,11 +121,10 @@ impl<T: Real> Covariance<T> {
     #[inline(always)]
     fn of(Gram { xx, xy, yy, root }: Gram) -> Self {
         let c11 = Real::sqrt(xx);
-        if c11 > 0.0 {
-            return Self { c11: T::lit(c11), c12: T::lit(xy / c11), c22: T::lit(root / c11) };
-        }
+        let (along, across) = ([xy / c11, root / c11], Real::sqrt(yy));
         // NaN stays NaN.
-        Self { c11: T::lit(c11), c12: T::lit(c11), c22: T::lit(Real::sqrt(yy) + c11) }
+        let [c12, c22] = if c11 > 0.0 { along } else { [c11, across + c11] };
+        Self { c11: T::lit(c11), c12: T::lit(c12), c22: T::lit(c22) }
     }
 
     /// C, Σ = CᵀC.

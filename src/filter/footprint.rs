@@ -32,7 +32,7 @@ pub struct Footprint<T: Real> {
 
 impl<T: Real> Footprint<T> {
     /// The footprint of these steps per pixel.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn new(dh_du: T::Vec2, dh_dv: T::Vec2) -> Self {
         Self { du: dh_du, dv: dh_dv }
@@ -45,6 +45,7 @@ impl<T: Real> Footprint<T> {
         [self.du, self.dv]
     }
 
+    #[inline(always)]
     fn rows(&self) -> [[T; 2]; 2] {
         [self.du.into(), self.dv.into()]
     }

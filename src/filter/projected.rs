@@ -89,52 +89,55 @@ pub fn filtered_by<M: Map>(
     surface: &Microsurface<Ggx, M>,
     covariance: Covariance<M::Scalar>,
 ) -> Result<Microsurface<Ggx, Linear<M::Scalar>>, Error> {
-    let map = Linear::of_gram(gram(surface, covariance)).ok_or_else(|| covariance.refused())?;
+    let gram = OnDisc::new(surface.map()).convolved(covariance);
+    let map = Linear::of_gram(gram).ok_or_else(|| covariance.refused())?;
     Ok(Microsurface::new(*surface.profile(), map))
 }
 
-/// [`filtered_by`] for a Σ whose result the caller knows to be in range.
-#[inline(always)]
-pub(crate) fn filtered_in_range<M: Map>(
-    surface: &Microsurface<Ggx, M>,
-    covariance: Covariance<M::Scalar>,
-) -> Microsurface<Ggx, Linear<M::Scalar>> {
-    Microsurface::new(*surface.profile(), Linear::triangular(gram(surface, covariance)))
+/// A surface on the disc of m.xy: R of A = RᵀR, and the positive part of B = I − A.
+#[derive(Debug)]
+pub struct OnDisc {
+    r: [f64; 3],
+    b: [f64; 3],
+    det_b: f64,
 }
 
-#[inline(always)]
-fn gram<M: Map>(surface: &Microsurface<Ggx, M>, covariance: Covariance<M::Scalar>) -> Gram {
-    let c = covariance.factor().map(|entry| core::f64::consts::SQRT_2 * entry);
-    convolved(factor(surface.map()), c)
-}
+impl OnDisc {
+    #[inline]
+    pub(crate) fn new<M: Map>(map: &M) -> Self {
+        let r = factor(map);
+        let (b, det_b) = complement(r);
+        Self { r, b, det_b }
+    }
 
-/// A + (BCᵀ)(I + CBCᵀ)⁻¹(CB) of A = RᵀR and triangular C.
-///
-/// With LLᵀ = I + CBCᵀ the update is DᵀD, D = L⁻¹CB. Its second row is a difference as Cholesky's method has it; from
-/// BJB = det B·J, J a quarter turn, it is c22 (b₂ + c11 det B·Jc₁)/√(K11 det K), with K = I + CBCᵀ and c₁ the first row of C.
-#[inline(always)]
-fn convolved(r: [f64; 3], [c11, c12, c22]: [f64; 3]) -> Gram {
-    let [r11, r12, r22] = r;
-    let ([xx, xy, yy], det_b) = complement(r);
-    // c₁B, the first row of CB, and c₁Bc₁ᵀ.
-    let first = [c11 * xx + c12 * xy, c11 * xy + c12 * yy];
-    let k11 = 1.0 + (c11 * first[0] + c12 * first[1]).max(0.0);
-    let det_c = c11 * c22;
-    let det_k = k11 + c22 * c22 * yy + det_c * det_c * det_b;
-    let d1 = first.map(|entry| entry / Real::sqrt(k11));
-    let scale = c22 / Real::sqrt(k11 * det_k);
-    let d2 = [scale * (xy - c11 * c12 * det_b), scale * (yy + c11 * c11 * det_b)];
-    // det(RᵀR + DᵀD) = (det R)² + |adj(R)ᵀd₁|² + |adj(R)ᵀd₂|² + (det D)².
-    let mixed = |[x, y]: [f64; 2]| {
-        let (a, b) = (r22 * x, r11 * y - r12 * x);
-        a * a + b * b
-    };
-    let (det_r, det_d) = (r11 * r22, det_c * det_b / Real::sqrt(det_k));
-    Gram {
-        xx: r11 * r11 + (d1[0] * d1[0] + d2[0] * d2[0]),
-        xy: r11 * r12 + (d1[0] * d1[1] + d2[0] * d2[1]),
-        yy: r12 * r12 + r22 * r22 + (d1[1] * d1[1] + d2[1] * d2[1]),
-        root: Real::sqrt(det_r * det_r + mixed(d1) + mixed(d2) + det_d * det_d),
+    /// A + (BCᵀ)(I + CBCᵀ)⁻¹(CB) of A = RᵀR and triangular C.
+    ///
+    /// With LLᵀ = I + CBCᵀ the update is DᵀD, D = L⁻¹CB. Its second row is a difference as Cholesky's method has it; from
+    /// BJB = det B·J, J a quarter turn, it is c22 (b₂ + c11 det B·Jc₁)/√(K11 det K), with K = I + CBCᵀ and c₁ the first row of C.
+    #[inline(always)]
+    pub(crate) fn convolved<T: Real>(&self, covariance: Covariance<T>) -> Gram {
+        let Self { r: [r11, r12, r22], b: [xx, xy, yy], det_b } = *self;
+        let [c11, c12, c22] = covariance.factor().map(|entry| core::f64::consts::SQRT_2 * entry);
+        // c₁B, the first row of CB, and c₁Bc₁ᵀ.
+        let first = [c11 * xx + c12 * xy, c11 * xy + c12 * yy];
+        let k11 = 1.0 + (c11 * first[0] + c12 * first[1]).max(0.0);
+        let det_c = c11 * c22;
+        let det_k = k11 + c22 * c22 * yy + det_c * det_c * det_b;
+        let d1 = first.map(|entry| entry / Real::sqrt(k11));
+        let scale = c22 / Real::sqrt(k11 * det_k);
+        let d2 = [scale * (xy - c11 * c12 * det_b), scale * (yy + c11 * c11 * det_b)];
+        // det(RᵀR + DᵀD) = (det R)² + |adj(R)ᵀd₁|² + |adj(R)ᵀd₂|² + (det D)².
+        let mixed = |[x, y]: [f64; 2]| {
+            let (a, b) = (r22 * x, r11 * y - r12 * x);
+            a * a + b * b
+        };
+        let (det_r, det_d) = (r11 * r22, det_c * det_b / Real::sqrt(det_k));
+        Gram {
+            xx: r11 * r11 + (d1[0] * d1[0] + d2[0] * d2[0]),
+            xy: r11 * r12 + (d1[0] * d1[1] + d2[0] * d2[1]),
+            yy: r12 * r12 + r22 * r22 + (d1[1] * d1[1] + d2[1] * d2[1]),
+            root: Real::sqrt(det_r * det_r + mixed(d1) + mixed(d2) + det_d * det_d),
+        }
     }
 }
 

@@ -106,7 +106,7 @@ impl<T: Real> Map for AxisAligned<T> {
         [self.alpha_x * x, self.alpha_y * y, z]
     }
 
-    #[inline]
+    #[inline(always)]
     fn inverse(&self) -> [[T; 2]; 2] {
         [[self.alpha_x, T::ZERO], [T::ZERO, self.alpha_y]]
     }

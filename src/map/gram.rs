@@ -51,7 +51,7 @@ pub(crate) fn invertible<T: Real>([[a, b], [c, d]]: [[f64; 2]; 2]) -> Result<f64
 }
 
 /// a·b − c·d to about an ulp of the result, by exact products (Dekker 1971; Kahan's algorithm).
-#[inline]
+#[inline(always)]
 pub(crate) fn difference_of_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
     let (p, p_error) = two_product(a, b);
     let (q, q_error) = two_product(c, d);
@@ -63,7 +63,7 @@ pub(crate) fn difference_of_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
 }
 
 /// a·b as a rounded product and its exact error.
-#[inline]
+#[inline(always)]
 fn two_product(a: f64, b: f64) -> (f64, f64) {
     let halves = |x: f64| {
         let t = 134217729.0 * x; // 2²⁷ + 1

@@ -96,7 +96,7 @@ impl<T: Real> Map for Isotropic<T> {
         [self.alpha * x, self.alpha * y, z]
     }
 
-    #[inline]
+    #[inline(always)]
     fn inverse(&self) -> [[T; 2]; 2] {
         [[self.alpha, T::ZERO], [T::ZERO, self.alpha]]
     }

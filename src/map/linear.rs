@@ -162,7 +162,7 @@ impl<T: Real> Map for Linear<T> {
         [self.r11 * x, self.r12 * x + self.r22 * y, z]
     }
 
-    #[inline]
+    #[inline(always)]
     fn inverse(&self) -> [[T; 2]; 2] {
         [[self.r11, self.r12], [T::ZERO, self.r22]]
     }

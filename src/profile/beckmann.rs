@@ -71,19 +71,12 @@ impl<T: Real> Profile<T> for Beckmann {
 
     #[inline(always)]
     fn sigma_above(&self, s2: T, z: T) -> T {
-        let s = s2.sqrt();
-        // Beyond ν = 7 the second term is below 2⁻⁷⁷ of the first: its value there does as well.
-        let (nu, far) = (z / s, T::lit(7.0));
-        let nu = if nu > far { far } else { nu };
-        z + T::HALF * s * exp_normal(-(nu * nu)) * ierfcx(nu)
+        z + backfacing(s2, z).0
     }
 
     #[inline(always)]
     fn sigma_backfacing(&self, s2: T, z: T) -> T {
-        let s = s2.sqrt();
-        let (nu, last) = (z / s, T::lit(if T::WIDENS { 8.0 } else { 26.0 }));
-        let (vanished, nu2) = (nu > last, nu * nu);
-        let area = T::HALF * s * exp_normal(-if vanished { T::ZERO } else { nu2 }) * ierfcx(nu);
+        let (area, vanished) = backfacing(s2, z);
         if vanished { T::ZERO } else { area }
     }
 
@@ -95,6 +88,16 @@ impl<T: Real> Profile<T> for Beckmann {
         let s = map.direction_term(w).sqrt();
         T::HALF * (s / w[2]) * ierfcx(w[2] / s) * exp_wide::<T>(-exponent)
     }
+}
+
+/// ½ s e^{−ν²} ierfcx ν, ν = z/s, and whether ν is so large that the area counts as 0; what it is then is below 2⁻⁹² z.
+#[inline(always)]
+fn backfacing<T: Real>(s2: T, z: T) -> (T, bool) {
+    let s = s2.sqrt();
+    let (nu, last) = (z / s, T::lit(if T::WIDENS { 8.0 } else { 26.0 }));
+    let vanished = nu > last;
+    let nu = if vanished { last } else { nu };
+    (T::HALF * s * exp_normal(-(nu * nu)) * ierfcx(nu), vanished)
 }
 
 impl<T: Real> SampleProfile<T> for Beckmann {

@@ -16,16 +16,16 @@ use super::{
     visible_normal,
 };
 use crate::input::{generator, uniform};
-use crate::textbook::{Anisotropic, Elementary, Width, ggx};
+use crate::textbook::{Anisotropic, Elementary, Width, beckmann, ggx};
 
 impl<T> Directions<T> {
-    fn borrowed(&self) -> batch::Directions<'_, T> {
+    pub(super) fn borrowed(&self) -> batch::Directions<'_, T> {
         batch::Directions { x: &self.x, y: &self.y, z: &self.z }
     }
 }
 
 /// `run` as one more alternative for each level, the build's own target first.
-fn compare_levels<T: Real>(
+pub(super) fn compare_levels<T: Real>(
     criterion: &mut Criterion,
     question: &str,
     n: usize,
@@ -51,9 +51,24 @@ pub(super) fn bench<T: Elementary + Spectrum<Scalar = T>>(criterion: &mut Criter
         u: [uniform(n, &mut rng), uniform(n, &mut rng)],
     };
     arguments.textbook(criterion, alpha);
+    arguments.limits(criterion);
     arguments.ask(criterion, "ggx", Ggx::isotropic(alpha).expect("a width"));
     arguments.ask(criterion, "beckmann", Beckmann::isotropic(alpha).expect("a width"));
     arguments.ask(criterion, "gtr-8-nodes-1.5", Gtr::isotropic(alpha, gamma).expect("a width"));
+}
+
+/// `sample` of every direction and two random numbers: a weight each.
+#[inline(always)]
+fn sample_slices<T: Real>(
+    [x, y, z]: [&[T]; 3],
+    [u1, u2]: [&[T]; 2],
+    out: &mut [T],
+    sample: impl Fn(T::Vec3, T::Vec2) -> T,
+) {
+    let arguments = x.iter().zip(y).zip(z).zip(u1.iter().zip(u2));
+    for (out, (((&x, &y), &z), (&u1, &u2))) in out.iter_mut().zip(arguments) {
+        *out = sample([x, y, z].into(), [u1, u2].into());
+    }
 }
 
 struct Arguments<T> {
@@ -63,25 +78,83 @@ struct Arguments<T> {
 }
 
 impl<T: Elementary + Spectrum<Scalar = T>> Arguments<T> {
-    /// GGX as the textbook has it, in the groups that [`ask`](Self::ask) goes on with.
+    /// What the textbook has, in the groups that [`ask`](Self::ask) goes on with. That of GGX is the measure of all.
     fn textbook(&self, criterion: &mut Criterion, alpha: T) {
         let n = self.wo.x.len();
         let (wi, wo) = (self.wi.slices(), self.wo.slices());
         let u: [&[T]; 2] = [&self.u[0], &self.u[1]];
         let (width, widths) = (Width::new(alpha), Anisotropic::new(alpha));
+        let f0 = black_box(T::lit(F0));
         let scalar = "textbook-scalar";
         let d = &mut opaque(wo, |w| ggx::d(width, w.into()));
         compare(criterion, "entry_d_ggx", n, &mut [(scalar, d)]);
-        let eval =
-            |wi: T::Vec3, wo: T::Vec3| black_box(ggx::reflection(width, T::lit(F0), wi.into(), wo.into()));
+        let d = &mut opaque(wo, |w| beckmann::d(width, w.into()));
+        compare(criterion, "entry_d_beckmann", n, &mut [(scalar, d)]);
+        let eval = |wi: T::Vec3, wo: T::Vec3| black_box(ggx::reflection(width, f0, wi.into(), wo.into()));
         let eval = &mut |out: &mut [T]| pair_slices(wi, wo, out, eval);
-        compare(criterion, "entry_eval_ggx", n, &mut [(scalar, eval)]);
+        for question in ["entry_eval_ggx", "entry_eval_gtr-8-nodes-1.5"] {
+            compare(criterion, question, n, &mut [("textbook-ggx-scalar", eval)]);
+        }
+        let exact =
+            |wi: T::Vec3, wo: T::Vec3| black_box(beckmann::reflection(width, f0, wi.into(), wo.into()));
+        let exact = &mut |out: &mut [T]| pair_slices(wi, wo, out, exact);
+        compare(criterion, "entry_eval_beckmann", n, &mut [("textbook-ggx-scalar", eval), (scalar, exact)]);
+
         let mut normals = [0, 1, 2].map(|_| vec![T::ZERO; n]);
         let normal = |w: T::Vec3, u: T::Vec2| {
             black_box(ggx::visible_normal_heitz2018(widths, w.into(), u.into()).into())
         };
         let normal = &mut |_: &mut [T]| normal_slices(wo, u, &mut normals, normal);
         compare(criterion, "entry_visible_normal_ggx", n, &mut [(scalar, normal)]);
+        let mut normals = [0, 1, 2].map(|_| vec![T::ZERO; n]);
+        let normal = |w: T::Vec3, u: T::Vec2| {
+            black_box(beckmann::visible_normal_jakob2014(width, w.into(), u.into()).into())
+        };
+        let normal = &mut |_: &mut [T]| normal_slices(wo, u, &mut normals, normal);
+        compare(criterion, "entry_visible_normal_beckmann", n, &mut [(scalar, normal)]);
+
+        let sample = |w: T::Vec3, u: T::Vec2| {
+            black_box(ggx::sampled_reflection_heitz2018(widths, f0, w.into(), u.into()))
+                .map_or(T::ZERO, |(_, weight, _)| weight)
+        };
+        let sample = &mut |out: &mut [T]| sample_slices(wo, u, out, sample);
+        compare(criterion, "entry_sample_ggx", n, &mut [(scalar, sample)]);
+    }
+
+    /// What no form of GGX's reflection can do without: its loads and its store, three roots, two quotients.
+    fn limits(&self, criterion: &mut Criterion) {
+        let n = self.wo.x.len();
+        let input = (self.wi.borrowed(), self.wo.borrowed());
+        let sums = |(i, o): ([T; 3], [T; 3])| [i[0] + o[0], i[1] + o[1], i[2] + o[2]];
+        let loads = &mut |out: &mut [T]| {
+            batch::map(input, out, |pair| {
+                let [a, b, c] = sums(pair);
+                a + b + c
+            });
+        };
+        compare_levels(criterion, "entry_limit_loads", n, &mut [], loads);
+        let roots = &mut |out: &mut [T]| {
+            batch::map(input, out, |pair| {
+                let [a, b, c] = sums(pair).map(Real::sqrt);
+                a + b + c
+            });
+        };
+        compare_levels(criterion, "entry_limit_roots", n, &mut [], roots);
+        let quotients = &mut |out: &mut [T]| {
+            batch::map(input, out, |pair| {
+                let [a, b, c] = sums(pair);
+                a / b + b / c
+            });
+        };
+        compare_levels(criterion, "entry_limit_quotients", n, &mut [], quotients);
+        let all = &mut |out: &mut [T]| {
+            batch::map(input, out, |pair| {
+                let h = sums(pair);
+                let [a, b, c] = h.map(Real::sqrt);
+                (a + b + c) / h[0] + h[1] / h[2]
+            });
+        };
+        compare_levels(criterion, "entry_limit_ggx_eval", n, &mut [], all);
     }
 
     fn ask<N>(&self, criterion: &mut Criterion, name: &str, surface: N)
@@ -150,11 +223,9 @@ impl<T: Elementary + Spectrum<Scalar = T>> Arguments<T> {
             &format!("entry_sample_{name}"),
             n,
             &mut [("scalar", &mut |out| {
-                let arguments = wo[0].iter().zip(wo[1]).zip(wo[2]).zip(u[0].iter().zip(u[1]));
-                for (out, (((&x, &y), &z), (&u1, &u2))) in out.iter_mut().zip(arguments) {
-                    let sample = black_box(brdf.sample([x, y, z].into(), [u1, u2].into()));
-                    *out = sample.map_or(T::ZERO, |sample| sample.weight);
-                }
+                sample_slices(wo, u, out, |w, u| {
+                    black_box(brdf.sample(w, u)).map_or(T::ZERO, |sample| sample.weight)
+                });
             })],
             &mut |weight| {
                 let [x, y, z] = &mut wi;

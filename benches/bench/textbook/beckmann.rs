@@ -26,6 +26,18 @@ pub(crate) fn lambda_walter2007<T: Real>(Width { alpha }: Width<T>, w: [T; 3]) -
     (T::ONE - T::lit(1.259) * a + T::lit(0.396) * a * a) / (T::lit(3.535) * a + T::lit(2.181) * a * a)
 }
 
+/// Λ = (e^{−a²}/(a√π) − erfc a)/2: Heitz 2014, Eq. 66.
+#[inline(always)]
+pub(crate) fn lambda<T: Elementary>(Width { alpha }: Width<T>, w: [T; 3]) -> T {
+    let a = T::ONE / (alpha * tan2(w).sqrt());
+    ((-a * a).exp() / (a * T::SQRT_PI) - (T::ONE - erf(a))) * T::HALF
+}
+
+#[inline(always)]
+pub(crate) fn reflection<T: Elementary>(width: Width<T>, f0: T, wi: [T; 3], wo: [T; 3]) -> T {
+    reflection_of(f0, wi, wo, |m| d(width, m), |w| lambda(width, w))
+}
+
 #[inline(always)]
 pub(crate) fn reflection_walter2007<T: Elementary>(width: Width<T>, f0: T, wi: [T; 3], wo: [T; 3]) -> T {
     reflection_of(f0, wi, wo, |m| d(width, m), |w| lambda_walter2007(width, w))
