@@ -1,13 +1,14 @@
 //! The elementary functions against 50-digit values (f64), and f32 against f64.
 //!
-//! All 2³² f32 numbers of every function (more than an hour on one core; with `STRIDE=64` in the environment every 64th):
-//! `cargo test --release --test it elementary::every_f32 -- --ignored --nocapture`
+//! All 2³² f32 numbers of every function are in `elementary/every_f32.rs`.
 #![expect(
     clippy::cast_possible_truncation,
     clippy::cast_precision_loss,
     clippy::float_cmp,
     reason = "tests round to f32 on purpose, and compare special values exactly"
 )]
+
+mod every_f32;
 
 use microsurface::elementary as e;
 
@@ -318,26 +319,4 @@ fn inverses_invert() {
         let x = e::erfc_inv(q);
         assert!((e::erfc(x) / q - 1.0).abs() < 1e-15 * (4.0 + 2.0 * x * x), "{q:e}");
     }
-}
-
-#[test]
-#[ignore = "all f32 numbers: over an hour"]
-fn every_f32() {
-    let stride = std::env::var("STRIDE").map_or(1, |stride| stride.parse().expect("a number"));
-    let mut failures = Vec::new();
-    for budget in BUDGET.iter().filter(|budget| budget.name != "pow" && budget.name != "atan2") {
-        let mut worst = Worst::default();
-        for bits in (0..=u32::MAX).step_by(stride) {
-            let x = f32::from_bits(bits);
-            single(&mut worst, (x, 0.0), (budget.single)(x, 0.0), (budget.double)(f64::from(x), 0.0));
-        }
-        if stride == 1 {
-            worst.check(budget.name, budget.f32, &mut failures);
-        } else {
-            // Some of the numbers need not hold the worst one.
-            println!("{:22} {:6.3} ulp", budget.name, worst.ulp);
-            assert!(worst.ulp <= budget.f32.0, "{}: {} ulp", budget.name, worst.ulp);
-        }
-    }
-    assert!(failures.is_empty(), "{failures:#?}");
 }
