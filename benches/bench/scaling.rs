@@ -113,6 +113,8 @@ impl<T: Real> Question<T> {
     ) {
         let mut arrays = None;
         group.throughput(Throughput::Elements(n as u64));
+        // The longest batches vary little, and a hundred of them take a minute.
+        group.sample_size(if n < 1_000_000 { 100 } else { 10 });
         group.bench_function(id, |bencher| {
             let arrays = arrays.get_or_insert_with(|| (self.arrays)(n));
             bencher.iter(|| {

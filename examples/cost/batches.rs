@@ -2,9 +2,9 @@
 //!
 //! In the vectors of the build's own target, because Valgrind knows none wider than AVX2.
 
+use alloc::rc::Rc;
 use core::cell::RefCell;
 use core::hint::black_box;
-use std::rc::Rc;
 
 use microsurface::batch::dispatch::{Level, limit_to};
 use microsurface::batch::{Directions, DirectionsMut, NdfBatch, Numbers, ReflectionBatch};

@@ -11,19 +11,41 @@ use std::time::Instant;
 
 use crate::elf;
 
-const PROGRAMS: [(&str, &str); 4] = [
-    ("empty", "fn main() {}\n"),
-    ("minimal", include_str!("programs/minimal.rs")),
-    ("typical", include_str!("programs/typical.rs")),
-    ("full", include_str!("programs/full.rs")),
-];
+struct Program {
+    name: &'static str,
+    /// What is in it, for the table.
+    contents: &'static str,
+    source: &'static str,
+    /// With the feature of that name.
+    batches: bool,
+}
 
-/// What is in the programs, for the table.
-const CONTENTS: [&str; 4] = [
-    "an empty `main`",
-    "D of isotropic GGX",
-    "eval, pdf, sample of isotropic GGX, RGB conductor",
-    "the same of GGX, Beckmann, two GTR under every map, and of filtered GGX; as calls and in batches",
+const PROGRAMS: [Program; 5] = [
+    Program { name: "empty", contents: "an empty `main`", source: "fn main() {}\n", batches: false },
+    Program {
+        name: "minimal",
+        contents: "D of isotropic GGX",
+        source: include_str!("programs/minimal.rs"),
+        batches: false,
+    },
+    Program {
+        name: "typical",
+        contents: "eval, pdf, sample of isotropic GGX, RGB conductor",
+        source: include_str!("programs/typical.rs"),
+        batches: false,
+    },
+    Program {
+        name: "every",
+        contents: "the same of GGX, Beckmann and two GTR under every map, and of filtered GGX: 15 types of material",
+        source: include_str!("programs/full.rs"),
+        batches: false,
+    },
+    Program {
+        name: "full",
+        contents: "the same, and two batches of each type",
+        source: include_str!("programs/full.rs"),
+        batches: true,
+    },
 ];
 
 struct Built {
@@ -39,8 +61,9 @@ pub(crate) fn report(out: &mut impl Write) -> io::Result<()> {
         "| program | | seconds from scratch | of the program alone | kB beyond the empty one |\n|---|---|---|---|---|"
     )?;
     let mut empty = None;
-    for ((name, source), contents) in PROGRAMS.into_iter().zip(CONTENTS) {
-        let Built { seconds: [scratch, alone], bytes } = built(name, source)?;
+    for program in &PROGRAMS {
+        let Program { name, contents, .. } = program;
+        let Built { seconds: [scratch, alone], bytes } = built(program)?;
         let beyond = i64::try_from(bytes).unwrap_or(i64::MAX)
             - *empty.get_or_insert(i64::try_from(bytes).unwrap_or(0));
         #[expect(clippy::cast_precision_loss, reason = "far below 2⁵³")]
@@ -51,14 +74,14 @@ pub(crate) fn report(out: &mut impl Write) -> io::Result<()> {
 }
 
 /// Builds a program twice.
-fn built(name: &str, source: &str) -> io::Result<Built> {
+fn built(&Program { name, source, batches, .. }: &Program) -> io::Result<Built> {
     let directory = Path::new("target/cost").join(name);
     let target = directory.join("target");
     if target.exists() {
         std::fs::remove_dir_all(&target)?;
     }
     std::fs::create_dir_all(directory.join("src"))?;
-    std::fs::write(directory.join("Cargo.toml"), manifest(name))?;
+    std::fs::write(directory.join("Cargo.toml"), manifest(name, batches))?;
     let main = directory.join("src/main.rs");
     std::fs::write(&main, source)?;
     let scratch = build(&directory)?;
@@ -70,11 +93,13 @@ fn built(name: &str, source: &str) -> io::Result<Built> {
 }
 
 /// The release profile as it is, but for what an executable holds besides its code.
-fn manifest(name: &str) -> String {
+fn manifest(name: &str, batches: bool) -> String {
     let dependency = env!("CARGO_MANIFEST_DIR");
+    let default = if batches { "\"batches\"" } else { "" };
     format!(
         "[package]\nname = \"{name}\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\n\
          [dependencies]\nmicrosurface = {{ path = {dependency:?} }}\n\n\
+         [features]\nbatches = []\ndefault = [{default}]\n\n\
          [profile.release]\nopt-level = 3\npanic = \"abort\"\nstrip = true\n\n[workspace]\n"
     )
 }

@@ -58,7 +58,9 @@ pub(crate) fn instructions(tables: &[Table], calls: u32) -> io::Result<Option<Ve
 
 /// The sum of a file of Callgrind's.
 fn total(file: &PathBuf) -> io::Result<f64> {
-    let text = std::fs::read_to_string(file)?;
+    let text = std::fs::read_to_string(file);
+    let text =
+        text.map_err(|error| io::Error::other(format!("{FUNCTION} in {}: {error}", file.display())))?;
     let total = text.lines().find_map(|line| line.strip_prefix("totals: ")?.trim().parse().ok());
     total.ok_or_else(|| io::Error::other(format!("no total in {}", file.display())))
 }

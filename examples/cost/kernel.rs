@@ -1,7 +1,7 @@
 //! Calls to be counted, and tables of them.
 
+use alloc::rc::Rc;
 use core::hint::black_box;
-use std::rc::Rc;
 
 use microsurface::Real;
 

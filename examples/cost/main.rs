@@ -9,6 +9,8 @@
 //! Prints Markdown tables. Bytes are the same on every machine of a word size; instructions are counted by Valgrind, if there is
 //! one, and are the same in every run of a binary; seconds are those of this machine.
 
+extern crate alloc;
+
 use core::error::Error;
 use std::io;
 

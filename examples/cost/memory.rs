@@ -16,7 +16,7 @@ use microsurface::profile::gtr::mixture::Mixture;
 use microsurface::profile::gtr::nodes::{GgxNodes, Nodes};
 use microsurface::profile::gtr::spline::Spline;
 use microsurface::profile::gtr::table::GtrTable;
-use microsurface::transform::Transformed;
+use microsurface::transform::{Transformed, tension};
 use microsurface::{AxisAligned, Beckmann, Ggx, Gtr, Isotropic, Linear, Microsurface, Real, RoughnessMatrix};
 
 /// A name, and bytes in f32 and f64.
@@ -84,7 +84,7 @@ pub(crate) fn report(out: &mut impl Write) -> io::Result<()> {
     table(out, "| other | |\n|---|---|", &others().map(|row| [row]))
 }
 
-fn others() -> [Row; 20] {
+fn others() -> [Row; 21] {
     [
         row!("GGX ⊛ Gaussian, `gaussian::filtered_by_two`", |T| FilteredGgx<T, 1>),
         row!("GGX ⊛ Gaussian, `gaussian::filtered`", |T| FilteredGgx<T, 6>),
@@ -105,6 +105,7 @@ fn others() -> [Row; 20] {
         row!("`HalfVector`", |T| jacobian::HalfVector<T>),
         row!("`Motion`", |T| jacobian::Motion<T>),
         row!("`Curvature`", |T| jacobian::Curvature<T>),
+        row!("`tension::Mean`", |T| tension::Mean<T>),
         row!("`Sample`", |T| microsurface::bsdf::Sample<T, T>),
     ]
 }

@@ -1,6 +1,6 @@
 //! What is counted.
 
-use std::rc::Rc;
+use alloc::rc::Rc;
 
 use microsurface::bsdf::RoughConductor;
 use microsurface::filter::{Covariance, Footprint, gaussian, projected};

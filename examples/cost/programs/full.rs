@@ -1,7 +1,8 @@
-//! Every distribution under every map, by scalar calls and in batches, and the filters.
+//! Every distribution under every map, and the filters: by scalar calls, and with the feature `batches` in batches too.
 
 use std::hint::black_box;
 
+#[cfg(feature = "batches")]
 use microsurface::batch::{Directions, DirectionsMut, Numbers, ReflectionBatch, Samples};
 use microsurface::bsdf::RoughConductor;
 use microsurface::filter::{Footprint, gaussian, projected};
@@ -9,9 +10,7 @@ use microsurface::fresnel::Conductor;
 use microsurface::glam::{Mat2, Vec2, Vec3};
 use microsurface::{Beckmann, Error, Ggx, Gtr};
 
-const N: usize = 256;
-
-/// Calls and batches of a reflection off a surface.
+/// Reflection off a surface.
 macro_rules! reflect {
     ($surface:expr) => {{
         let (n, k) = black_box((Vec3::new(0.19, 0.54, 1.33), Vec3::new(3.40, 2.23, 1.87)));
@@ -20,15 +19,18 @@ macro_rules! reflect {
         black_box(brdf.eval(wi, wo));
         black_box(brdf.pdf(wi, wo));
         black_box(brdf.sample(wo, u));
-        let numbers = black_box([0.6_f32; N]);
-        let w = Directions { x: &numbers, y: &numbers, z: &numbers };
-        let (mut f, mut pdf, [mut x, mut y, mut z]) = ([Vec3::ZERO; N], [0.0_f32; N], [[0.0_f32; N]; 3]);
-        brdf.eval_and_pdf_batch(w, w, &mut f, &mut pdf);
-        black_box((&f, &pdf));
-        let wi = DirectionsMut { x: &mut x, y: &mut y, z: &mut z };
-        let u = Numbers { x: &numbers, y: &numbers };
-        brdf.sample_batch(w, u, Samples { wi, weight: &mut f, pdf: &mut pdf });
-        black_box((&f, &pdf, &x, &y, &z));
+        #[cfg(feature = "batches")]
+        {
+            let numbers = black_box([0.6_f32; 256]);
+            let w = Directions { x: &numbers, y: &numbers, z: &numbers };
+            let (mut f, mut pdf, mut wi) = ([Vec3::ZERO; 256], [0.0_f32; 256], [[0.0_f32; 256]; 3]);
+            brdf.eval_and_pdf_batch(w, w, &mut f, &mut pdf);
+            black_box((&f, &pdf));
+            let [x, y, z] = &mut wi;
+            let (wi, u) = (DirectionsMut { x, y, z }, Numbers { x: &numbers, y: &numbers });
+            brdf.sample_batch(w, u, Samples { wi, weight: &mut f, pdf: &mut pdf });
+            black_box((&f, &pdf, &x, &y, &z));
+        }
     }};
 }
 
