@@ -1,8 +1,8 @@
-//! What an element of a batch costs as the batch grows, as threads share it, and as its materials differ.
+//! What an element of a batch costs as the batch grows, as threads share it, and as its materials differ, in width too.
 //!
 //! ```text
 //! cargo bench --bench bench -- scaling            # five minutes, and half a gigabyte for the batches of 10⁷
-//! cargo bench --bench bench -- scaling_materials  # one of scaling_size, scaling_threads, scaling_materials
+//! cargo bench --bench bench -- scaling_materials  # one of scaling_{size,alpha,threads,materials}
 //! ```
 //!
 //! Short batches show the price of a call, long ones that of memory: an element reads five or six numbers and writes one
@@ -31,8 +31,9 @@ const SHARED: [usize; 2] = [65_536, 1_000_000];
 const ELEMENTS: usize = 65_536;
 const DISTINCT: [usize; 4] = [1, 16, 256, 4096];
 
-/// The width of the one material, the middle of [`widths`].
+/// The width of the one material, the middle of [`widths`], and widths of one that are compared.
 const ALPHA: f64 = 0.03;
+const ALPHAS: [f64; 6] = [1.0, 0.3, 0.1, 0.03, 0.01, 0.001];
 const F0: f64 = 0.9;
 
 /// `n` widths from 0.001 to 1, log-uniform.
@@ -138,6 +139,22 @@ impl<T: Real> Question<T> {
         }
     }
 
+    /// One material of several widths: the code is the same, but not how many numbers are subnormal on the way.
+    fn alphas<M>(
+        &self,
+        criterion: &mut Criterion,
+        material: impl Fn(T) -> M,
+        run: impl Fn(&M, Read<'_, T>, Written<'_, T>),
+    ) {
+        let mut group = self.group(criterion, "alpha");
+        for alpha in ALPHAS {
+            let material = black_box(material(T::lit(alpha)));
+            self.time(&mut group, BenchmarkId::from_parameter(alpha), SIZES[3], |read, written| {
+                run(&material, read, written);
+            });
+        }
+    }
+
     fn threads<M: Sync>(
         &self,
         criterion: &mut Criterion,
@@ -217,6 +234,7 @@ macro_rules! ask {
         let surface = |alpha| $profile::isotropic::<$scalar>(alpha).expect("a width within the range");
         let material = black_box($material(surface(<$scalar>::lit(ALPHA))));
         question.sizes($criterion, &material, $run);
+        question.alphas($criterion, |alpha| $material(surface(alpha)), $run);
         question.threads($criterion, &material, $run);
         question.materials($criterion, "isotropic", |alpha| $material(surface(alpha)), $run, $run);
         question.materials(
