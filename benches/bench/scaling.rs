@@ -226,6 +226,13 @@ fn moved<P: Profile<T>, T: Real>(surface: Surface<P, Isotropic<T>>) -> Surface<P
     surface.transformed(T::matrix(matrix)).expect("within the range of α")
 }
 
+/// A batch of one material, compiled once for all who call it.
+type Same<M, T> = fn(&M, Read<'_, T>, Written<'_, T>);
+
+fn compiled_once<M, T>(_: &M, run: Same<M, T>) -> Same<M, T> {
+    run
+}
+
 /// Everything about one batch. A macro, because the batch is a method of the material and of slices of it, and the material a
 /// type for each map.
 macro_rules! ask {
@@ -233,10 +240,11 @@ macro_rules! ask {
         let question = Question::<$scalar> { name: $name, arrays: Arrays::$arrays };
         let surface = |alpha| $profile::isotropic::<$scalar>(alpha).expect("a width within the range");
         let material = black_box($material(surface(<$scalar>::lit(ALPHA))));
-        question.sizes($criterion, &material, $run);
-        question.alphas($criterion, |alpha| $material(surface(alpha)), $run);
-        question.threads($criterion, &material, $run);
-        question.materials($criterion, "isotropic", |alpha| $material(surface(alpha)), $run, $run);
+        let same = compiled_once(&material, $run);
+        question.sizes($criterion, &material, same);
+        question.alphas($criterion, |alpha| $material(surface(alpha)), same);
+        question.threads($criterion, &material, same);
+        question.materials($criterion, "isotropic", |alpha| $material(surface(alpha)), same, $run);
         question.materials(
             $criterion,
             "axis-aligned",
