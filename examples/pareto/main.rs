@@ -16,12 +16,18 @@ use core::error::Error;
 use std::io;
 
 mod beckmann;
+mod blocks;
 mod chart;
+mod elementary;
 mod filter;
 mod gtr;
 mod measure;
 mod reference;
 mod report;
+#[path = "../../benches/bench/textbook.rs"]
+#[allow(dead_code, reason = "benchmarks use the rest")]
+mod textbook;
+mod vndf;
 
 /// How finely errors are searched, and how long times are taken.
 pub(crate) struct Effort {
@@ -31,6 +37,8 @@ pub(crate) struct Effort {
     pub(crate) gammas: u32,
     /// Pixels per size and shape of a footprint.
     pub(crate) pixels: usize,
+    /// Arguments of which the errors of samplers and elementary functions are taken.
+    pub(crate) samples: usize,
     /// Rounds of timing.
     pub(crate) rounds: usize,
     /// What stands below the charts.
@@ -51,14 +59,16 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     let effort = if quick {
-        Effort { angles: 120, gammas: 4, pixels: 3, rounds: 20, caption }
+        Effort { angles: 120, gammas: 4, pixels: 3, samples: 1 << 14, rounds: 20, caption }
     } else {
-        Effort { angles: 600, gammas: 20, pixels: 40, rounds: 300, caption }
+        Effort { angles: 600, gammas: 20, pixels: 40, samples: 1 << 20, rounds: 300, caption }
     };
     let mut out = io::stdout().lock();
     reference::validate(&mut out)?;
     beckmann::run(&effort, &mut out)?;
     gtr::run(&effort, &mut out)?;
     filter::run(&effort, &mut out)?;
+    vndf::run(&effort, &mut out)?;
+    elementary::run(&effort, &mut out)?;
     Ok(())
 }
