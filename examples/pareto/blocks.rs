@@ -20,6 +20,27 @@ type Block<T, const N: usize> = [[T; BLOCK]; N];
 #[derive(Clone)]
 pub(crate) struct Arguments<T, const N: usize>(Rc<[Block<T, N>]>);
 
+/// What is called with a material and arguments. No closure: that is inlined into only one of its callers, and a loop over
+/// calls is no vector code.
+pub(crate) trait Call<M, T, const N: usize, const OUT: usize>: Copy + 'static {
+    fn call(self, material: &M, arguments: [T; N]) -> [T; OUT];
+}
+
+/// A [`Call`] of any scalar `T`, as a type.
+macro_rules! call {
+    ($name:ident<T: $bound:path $(, $p:ident: $other:path)*>: ($material:ty), $n:literal => $out:literal, $body:expr) => {
+        #[derive(Clone, Copy)]
+        struct $name;
+        impl<T: $bound $(, $p: $other)*> $crate::blocks::Call<$material, T, $n, $out> for $name {
+            #[inline(always)]
+            fn call(self, material: &$material, arguments: [T; $n]) -> [T; $out] {
+                $body(material, arguments)
+            }
+        }
+    };
+}
+pub(crate) use call;
+
 pub(crate) fn generator() -> Pcg64Mcg {
     Pcg64Mcg::seed_from_u64(0x7061_7265_746f)
 }
@@ -58,7 +79,7 @@ impl<T: Real, const N: usize> Arguments<T, N> {
     pub(crate) fn each<M, const OUT: usize>(
         &self,
         materials: &[M],
-        call: impl Fn(&M, [T; N]) -> [T; OUT] + Copy,
+        call: impl Call<M, T, N, OUT>,
         mut see: impl FnMut(usize, [T; N], [T; OUT]),
     ) {
         let mut results = [[T::ZERO; BLOCK]; OUT];
@@ -76,7 +97,7 @@ impl<T: Real, const N: usize> Arguments<T, N> {
     pub(crate) fn timed<M: Clone + 'static, const OUT: usize>(
         &self,
         materials: &[M],
-        call: impl Fn(&M, [T; N]) -> [T; OUT] + Copy + 'static,
+        call: impl Call<M, T, N, OUT>,
     ) -> [Run; 2] {
         let calls = u32::try_from(self.len()).expect("fewer arguments");
         let (blocks, own) = (self.0.clone(), materials.to_vec());
@@ -85,7 +106,7 @@ impl<T: Real, const N: usize> Arguments<T, N> {
             for block in black_box(&blocks).iter() {
                 for i in 0..BLOCK {
                     let Some(material) = turns.next() else { return };
-                    black_box(call(material, from_fn(|k| block[k][i])));
+                    black_box(call.call(material, from_fn(|k| block[k][i])));
                 }
             }
         });
@@ -108,10 +129,10 @@ fn of_block<M, T: Real, const N: usize, const OUT: usize>(
     material: &M,
     arguments: &Block<T, N>,
     results: &mut Block<T, OUT>,
-    call: impl Fn(&M, [T; N]) -> [T; OUT],
+    call: impl Call<M, T, N, OUT>,
 ) {
     for i in 0..BLOCK {
-        let result = call(material, from_fn(|k| arguments[k][i]));
+        let result = call.call(material, from_fn(|k| arguments[k][i]));
         for (results, result) in results.iter_mut().zip(result) {
             results[i] = result;
         }

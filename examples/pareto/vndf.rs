@@ -11,7 +11,7 @@ use microsurface::Real;
 use rand_pcg::Pcg64Mcg;
 
 use crate::Effort;
-use crate::blocks::{Arguments, uniform};
+use crate::blocks::{Arguments, Call, uniform};
 use crate::measure::{Errors, Run, pairs_of_times};
 use crate::report::{Row, report};
 
@@ -114,7 +114,7 @@ impl<'a> Samplers<'a> {
         name: &str,
         domain: (f64, f64),
         materials: &[M],
-        sample: impl Fn(&M, Input<f32>) -> [f32; 3] + Copy + 'static,
+        sample: impl Call<M, f32, 5, 3>,
         exact: impl Fn(f64, Input<f64>) -> ([f64; 3], f64),
     ) {
         let (mut errors, mut unusable) = (Errors::default(), Unusable::default());
@@ -146,7 +146,7 @@ impl<'a> Samplers<'a> {
         &mut self,
         name: &str,
         materials: &[M],
-        sample: impl Fn(&M, Input<f64>) -> [f64; 3] + Copy + 'static,
+        sample: impl Call<M, f64, 5, 3>,
     ) {
         self.rows.push(Row { name: name.into(), scalar: "f64", ..Row::default() });
         self.runs.push(self.times.1.timed(materials, sample));

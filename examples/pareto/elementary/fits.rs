@@ -1,5 +1,6 @@
 //! The short fits that renderers use for exponentials and error functions, from their publications.
 
+use super::libraries::Libraries;
 use crate::textbook::Elementary;
 
 /// erf within 1.5e-7: Abramowitz and Stegun 1964, 7.1.26, after Hastings; in use in pbrt-v3.
@@ -50,23 +51,22 @@ pub(crate) fn erf_inv_giles<T: Elementary>(x: T) -> T {
 }
 
 /// 2ᶠ − 1 of [`exp_cubic`], within 1.2e-4.
-const LINEAR: f32 = 0.695;
-const SQUARE: f32 = 0.22748836;
-const CUBE: f32 = 1.0 - LINEAR - SQUARE;
+const LINEAR: f64 = 0.695;
+const SQUARE: f64 = 0.22748836;
+const CUBE: f64 = 1.0 - LINEAR - SQUARE;
 
-/// eˣ = 2ⁿ·2ᶠ with a cubic for 2ᶠ that is exact at 0 and 1, as pbrt-v4 has one; 0 or ∞ beyond the normal numbers.
+/// eˣ = 2ⁿ·2ᶠ with a cubic for 2ᶠ that is exact at 0 and 1, as pbrt-v4 has one; 0 or ∞ beyond the normal numbers of f32.
 #[inline(always)]
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "an exponent from −126 to 127")]
-pub(crate) fn exp_cubic(x: f32) -> f32 {
-    let scaled = x * core::f32::consts::LOG2_E;
-    let n = scaled.floor();
+pub(super) fn exp_cubic<T: Libraries>(x: T) -> T {
+    let scaled = x * T::lit(core::f64::consts::LOG2_E);
+    let n = scaled.std_floor();
     let f = scaled - n;
-    let two_to_f = 1.0 + f * (LINEAR + f * (SQUARE + f * CUBE));
-    if n < -126.0 {
-        return 0.0;
+    let two_to_f = T::ONE + f * (T::lit(LINEAR) + f * (T::lit(SQUARE) + f * T::lit(CUBE)));
+    if n < T::lit(-126.0) {
+        return T::ZERO;
     }
-    if n > 127.0 {
-        return f32::INFINITY;
+    if n > T::lit(127.0) {
+        return T::INFINITY;
     }
-    two_to_f * f32::from_bits(((n as i32 + 127) as u32) << 23)
+    two_to_f * n.exp2_of_integer()
 }

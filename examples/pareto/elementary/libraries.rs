@@ -4,6 +4,7 @@ use crate::textbook::Elementary;
 
 /// Those that the textbook does not call.
 pub(super) trait Libraries: Elementary {
+    fn std_floor(self) -> Self;
     fn std_exp_m1(self) -> Self;
     fn std_ln_1p(self) -> Self;
     fn std_sin_cos(self) -> (Self, Self);
@@ -29,6 +30,7 @@ macro_rules! libraries {
     };
 }
 libraries! { f32:
+    std_floor() -> f32 = f32::floor;
     std_exp_m1() -> f32 = f32::exp_m1;
     std_ln_1p() -> f32 = f32::ln_1p;
     std_sin_cos() -> (f32, f32) = f32::sin_cos;
@@ -43,6 +45,7 @@ libraries! { f32:
     libm_erfc() -> f32 = libm::erfcf;
 }
 libraries! { f64:
+    std_floor() -> f64 = f64::floor;
     std_exp_m1() -> f64 = f64::exp_m1;
     std_ln_1p() -> f64 = f64::ln_1p;
     std_sin_cos() -> (f64, f64) = f64::sin_cos;

@@ -10,6 +10,7 @@ use microsurface::{Beckmann, Isotropic, Microsurface, Ndf, Real, SampleNdf, Samp
 
 use super::{ALL, Input, Samplers, VISIBLE, alphas};
 use crate::Effort;
+use crate::blocks::call;
 use crate::elementary::fits::{erf_hastings, erf_inv_giles};
 use crate::textbook::{Elementary, Width, beckmann};
 
@@ -43,6 +44,12 @@ fn mitsuba<T: Elementary>(&width: &Width<T>, [x, y, z, u1, u2]: Input<T>) -> [T;
     beckmann::visible_normal_mitsuba(width, [x, y, z], [u1, u2])
 }
 
+call!(Ours<T: Real>: (Microsurface<Beckmann, Isotropic<T>>), 5 => 3, ours);
+call!(All<T: Real>: (Microsurface<Beckmann, Isotropic<T>>), 5 => 3, all);
+call!(Jakob<T: Elementary>: (Width<T>), 5 => 3, jakob);
+call!(JakobOfFits<T: Elementary>: (Width<T>), 5 => 3, jakob_of_fits);
+call!(Mitsuba<T: Elementary>: (Width<T>), 5 => 3, mitsuba);
+
 /// The reference, once: it is long.
 #[inline(never)]
 fn exact(alpha: f64, input: Input<f64>) -> ([f64; 3], f64) {
@@ -54,19 +61,19 @@ pub(super) fn run(effort: &Effort, out: &mut impl Write) -> io::Result<()> {
     let mut samplers = Samplers::new(effort);
     let surfaces = alphas().map(surface::<f32>);
     let widths = alphas().map(Width::<f32>::new);
-    samplers.single("sample_vndf", VISIBLE, &surfaces, ours, exact);
-    samplers.single("Jakob 2014", VISIBLE, &widths, jakob, exact);
-    samplers.single("Jakob 2014, pbrt-v3's erf", VISIBLE, &widths, jakob_of_fits, exact);
-    samplers.single("Mitsuba", VISIBLE, &widths, mitsuba, exact);
-    samplers.single("all normals", ALL, &surfaces, all, |alpha, input| {
+    samplers.single("sample_vndf", VISIBLE, &surfaces, Ours, exact);
+    samplers.single("Jakob 2014", VISIBLE, &widths, Jakob, exact);
+    samplers.single("Jakob 2014, pbrt-v3's erf", VISIBLE, &widths, JakobOfFits, exact);
+    samplers.single("Mitsuba", VISIBLE, &widths, Mitsuba, exact);
+    samplers.single("all normals", ALL, &surfaces, All, |alpha, input| {
         let normal = all(&surface(alpha), input);
         (normal, surface(alpha).pdf_d(normal.into()))
     });
     let surfaces = alphas().map(surface::<f64>);
     let widths = alphas().map(Width::<f64>::new);
-    samplers.double("sample_vndf", &surfaces, ours);
-    samplers.double("Jakob 2014", &widths, jakob);
-    samplers.double("Mitsuba", &widths, mitsuba);
-    samplers.double("all normals", &surfaces, all);
+    samplers.double("sample_vndf", &surfaces, Ours);
+    samplers.double("Jakob 2014", &widths, Jakob);
+    samplers.double("Mitsuba", &widths, Mitsuba);
+    samplers.double("all normals", &surfaces, All);
     samplers.report(out, "vndf_beckmann", "Beckmann: visible normals")
 }

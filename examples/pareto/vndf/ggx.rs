@@ -6,6 +6,7 @@ use microsurface::{Ggx, Isotropic, Microsurface, Ndf, Real, SampleNdf, SampleVnd
 
 use super::{ALL, Input, Samplers, VISIBLE, alphas};
 use crate::Effort;
+use crate::blocks::call;
 use crate::textbook::{Anisotropic, Elementary, ggx};
 
 fn surface<T: Real>(alpha: T) -> Microsurface<Ggx, Isotropic<T>> {
@@ -32,6 +33,11 @@ fn dupuy<T: Elementary>(&widths: &Anisotropic<T>, [x, y, z, u1, u2]: Input<T>) -
     ggx::visible_normal_dupuy2023(widths, [x, y, z], [u1, u2])
 }
 
+call!(Ours<T: Real>: (Microsurface<Ggx, Isotropic<T>>), 5 => 3, ours);
+call!(All<T: Real>: (Microsurface<Ggx, Isotropic<T>>), 5 => 3, all);
+call!(Heitz<T: Elementary>: (Anisotropic<T>), 5 => 3, heitz);
+call!(Dupuy<T: Elementary>: (Anisotropic<T>), 5 => 3, dupuy);
+
 fn widths<T: Copy>(alpha: T) -> Anisotropic<T> {
     Anisotropic { alpha_x: alpha, alpha_y: alpha }
 }
@@ -46,18 +52,18 @@ pub(super) fn run(effort: &Effort, out: &mut impl Write) -> io::Result<()> {
     let surfaces = alphas().map(surface::<f32>);
     let pairs = alphas().map(widths::<f32>);
     let caps = |alpha, input| visible(alpha, input, ours(&surface(alpha), input));
-    samplers.single("sample_vndf", VISIBLE, &surfaces, ours, caps);
-    samplers.single("caps as printed", VISIBLE, &pairs, dupuy, caps);
-    samplers.single("Heitz 2018", VISIBLE, &pairs, heitz, |alpha, input| {
+    samplers.single("sample_vndf", VISIBLE, &surfaces, Ours, caps);
+    samplers.single("caps as printed", VISIBLE, &pairs, Dupuy, caps);
+    samplers.single("Heitz 2018", VISIBLE, &pairs, Heitz, |alpha, input| {
         visible(alpha, input, heitz(&widths(alpha), input))
     });
-    samplers.single("all normals", ALL, &surfaces, all, |alpha, input| {
+    samplers.single("all normals", ALL, &surfaces, All, |alpha, input| {
         let normal = all(&surface(alpha), input);
         (normal, surface(alpha).pdf_d(normal.into()))
     });
-    samplers.double("sample_vndf", &alphas().map(surface::<f64>), ours);
-    samplers.double("caps as printed", &alphas().map(widths::<f64>), dupuy);
-    samplers.double("Heitz 2018", &alphas().map(widths::<f64>), heitz);
-    samplers.double("all normals", &alphas().map(surface::<f64>), all);
+    samplers.double("sample_vndf", &alphas().map(surface::<f64>), Ours);
+    samplers.double("caps as printed", &alphas().map(widths::<f64>), Dupuy);
+    samplers.double("Heitz 2018", &alphas().map(widths::<f64>), Heitz);
+    samplers.double("all normals", &alphas().map(surface::<f64>), All);
     samplers.report(out, "vndf_ggx", "GGX: visible normals")
 }

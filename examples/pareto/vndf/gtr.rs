@@ -11,6 +11,7 @@ use microsurface::{Isotropic, Microsurface, Ndf, Real, SampleVndf};
 
 use super::{ALPHAS, Input, Samplers, VISIBLE, alphas};
 use crate::Effort;
+use crate::blocks::call;
 
 #[inline(always)]
 fn sample<T: Real, P: SampleVisibleProfile<T>>(
@@ -20,7 +21,9 @@ fn sample<T: Real, P: SampleVisibleProfile<T>>(
     surface.sample_vndf([x, y, z].into(), [u1, u2].into()).into()
 }
 
-/// What [`gtr`] makes of its surfaces, once: it is long.
+call!(Sample<T: Real, P: SampleVisibleProfile<T>>: (Microsurface<P, Isotropic<T>>), 5 => 3, sample);
+
+/// The reference, once: it is long.
 #[inline(never)]
 fn exact<P: SampleVisibleProfile<f64>>(
     surface: &Microsurface<P, Isotropic<f64>>,
@@ -39,11 +42,11 @@ fn gtr<P: SampleVisibleProfile<f32> + 'static, Q: SampleVisibleProfile<f64> + 's
 ) {
     let singles = alphas().map(|alpha| single(alpha).expect("a width"));
     let widened = alphas::<f32>().map(|alpha| double(alpha.into()).expect("a width"));
-    samplers.single(name, VISIBLE, &singles, sample, |alpha, input| {
+    samplers.single(name, VISIBLE, &singles, Sample, |alpha, input| {
         let which = ALPHAS.iter().position(|&a| f64::from(f32::lit(a)) == alpha).expect("one of them");
         exact(&widened[which], input)
     });
-    samplers.double(name, &widened, sample);
+    samplers.double(name, &widened, Sample);
 }
 
 pub(super) fn run(effort: &Effort, out: &mut impl Write) -> io::Result<()> {
