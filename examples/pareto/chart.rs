@@ -105,10 +105,10 @@ pub(crate) fn chart(title: &str, caption: &str, rows: &[Row]) -> String {
     let places = (0..).map(|i| (i / layout.columns, i % layout.columns));
     for (panel, (line, column)) in panels.iter().zip(places) {
         #[expect(clippy::cast_precision_loss, reason = "a few panels")]
-        let (left, top) =
-            (column as f64 * layout.width, layout.head + line as f64 * layout.height);
+        let (left, top) = (column as f64 * layout.width, layout.head + line as f64 * layout.height);
         let (group, scalar) = panel[0].question();
-        let least = if group.is_empty() { panel.iter().map(|row| row.digits()).fold(0.0, f64::min) } else { 0.0 };
+        let least =
+            if group.is_empty() { panel.iter().map(|row| row.digits()).fold(0.0, f64::min) } else { 0.0 };
         let axes = Axes {
             left: left + LEFT,
             right: left + layout.width - layout.right,

@@ -15,12 +15,14 @@
 use core::error::Error;
 use std::io;
 
+mod batch;
 mod beckmann;
 mod blocks;
 mod chart;
 mod elementary;
 mod filter;
 mod gtr;
+mod maps;
 mod measure;
 mod reference;
 mod report;
@@ -70,5 +72,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     filter::run(&effort, &mut out)?;
     vndf::run(&effort, &mut out)?;
     elementary::run(&effort, &mut out)?;
+    batch::run(&effort, &mut out)?;
+    maps::run(&effort, &mut out)?;
     Ok(())
 }

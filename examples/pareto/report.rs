@@ -87,7 +87,9 @@ pub(crate) fn report(
         });
         let errors = match &row.errors {
             errors if !errors.known() => "– | – | –".into(),
-            errors if row.in_ulp => format!("{:.3} | {} | {:.2}", errors.worst, errors.at, errors.rms()),
+            errors if row.in_ulp && errors.worst < 1e4 => {
+                format!("{:.2} | {} | {:.2}", errors.worst, errors.at, errors.rms())
+            }
             errors => format!("{:.2e} | {} | {:.1e}", errors.worst, errors.at, errors.rms()),
         };
         let frontier = match [0, 1].map(|time| row.on_frontier(rows, time)) {

@@ -97,10 +97,10 @@ fn alphas<T: Real>() -> [T; 6] {
 }
 
 impl<'a> Samplers<'a> {
-    fn new(effort: &'a Effort) -> Self {
+    fn new(effort: &'a Effort, of_errors: fn(&mut Pcg64Mcg) -> Input<f64>) -> Self {
         Self {
             effort,
-            errors: Arguments::draw(effort.samples / 4, extreme),
+            errors: Arguments::draw(effort.samples / 4, of_errors),
             times: (Arguments::draw(TIMED, usual), Arguments::draw(TIMED, usual)),
             rows: Vec::new(),
             runs: Vec::new(),
@@ -142,12 +142,7 @@ impl<'a> Samplers<'a> {
     }
 
     /// Adds the time of a sampler in f64, to which there is no reference.
-    fn double<M: Clone + 'static>(
-        &mut self,
-        name: &str,
-        materials: &[M],
-        sample: impl Call<M, f64, 5, 3>,
-    ) {
+    fn double<M: Clone + 'static>(&mut self, name: &str, materials: &[M], sample: impl Call<M, f64, 5, 3>) {
         self.rows.push(Row { name: name.into(), scalar: "f64", ..Row::default() });
         self.runs.push(self.times.1.timed(materials, sample));
     }
@@ -157,7 +152,10 @@ impl<'a> Samplers<'a> {
             row.ns = ns.map(Some);
         }
         report(out, self.effort, file, title, &self.rows)?;
-        writeln!(out, "| of every million, f32 | NaN | below the horizon | facing away | displaced by more than 0.01 |")?;
+        writeln!(
+            out,
+            "| of every million, f32 | NaN | below the horizon | facing away | displaced by more than 0.01 |"
+        )?;
         writeln!(out, "|---|---|---|---|---|")?;
         for (row, unusable) in self.rows.iter().filter(|row| row.scalar == "f32").zip(&self.unusable) {
             let share = |count: u32| 1e6 * f64::from(count) / f64::from(unusable.of);

@@ -85,13 +85,7 @@ fn slope_mitsuba<T: Elementary>(cos: T, sin: T, u: T) -> T {
 }
 
 #[inline(always)]
-fn slope_jakob2014<T: Elementary>(
-    cos: T,
-    sin: T,
-    u: T,
-    erf: impl Fn(T) -> T,
-    erf_inv: impl Fn(T) -> T,
-) -> T {
+fn slope_jakob2014<T: Elementary>(cos: T, sin: T, u: T, erf: impl Fn(T) -> T, erf_inv: impl Fn(T) -> T) -> T {
     let tan = sin / cos;
     let cot = cos / sin;
     let one = T::ONE;

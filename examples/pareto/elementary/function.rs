@@ -102,7 +102,8 @@ impl<T: Real, const OUT: usize> Function<T, OUT> {
         let (mut errors, scalar) = (Errors::default(), core::any::type_name::<T>());
         if scalar == "f64" {
             // Angles of many turns are another question.
-            for (at, exact) in self.table().into_iter().filter(|(at, _)| !self.absolute || at[0].abs() <= 1.0) {
+            for (at, exact) in self.table().into_iter().filter(|(at, _)| !self.absolute || at[0].abs() <= 1.0)
+            {
                 let at = at.map(T::lit);
                 self.add(&mut errors, at, call.call(&(), at), exact);
             }

@@ -8,7 +8,7 @@ use std::io::{self, Write};
 use microsurface::elementary::{erf, erf_inv};
 use microsurface::{Beckmann, Isotropic, Microsurface, Ndf, Real, SampleNdf, SampleVndf};
 
-use super::{ALL, Input, Samplers, VISIBLE, alphas};
+use super::{ALL, Input, Samplers, VISIBLE, alphas, extreme};
 use crate::Effort;
 use crate::blocks::call;
 use crate::elementary::fits::{erf_hastings, erf_inv_giles};
@@ -58,7 +58,7 @@ fn exact(alpha: f64, input: Input<f64>) -> ([f64; 3], f64) {
 }
 
 pub(super) fn run(effort: &Effort, out: &mut impl Write) -> io::Result<()> {
-    let mut samplers = Samplers::new(effort);
+    let mut samplers = Samplers::new(effort, extreme);
     let surfaces = alphas().map(surface::<f32>);
     let widths = alphas().map(Width::<f32>::new);
     samplers.single("sample_vndf", VISIBLE, &surfaces, Ours, exact);

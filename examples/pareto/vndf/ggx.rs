@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use microsurface::{Ggx, Isotropic, Microsurface, Ndf, Real, SampleNdf, SampleVndf};
 
-use super::{ALL, Input, Samplers, VISIBLE, alphas};
+use super::{ALL, Input, Samplers, VISIBLE, alphas, extreme};
 use crate::Effort;
 use crate::blocks::call;
 use crate::textbook::{Anisotropic, Elementary, ggx};
@@ -48,7 +48,7 @@ fn visible(alpha: f64, input: Input<f64>, normal: [f64; 3]) -> ([f64; 3], f64) {
 }
 
 pub(super) fn run(effort: &Effort, out: &mut impl Write) -> io::Result<()> {
-    let mut samplers = Samplers::new(effort);
+    let mut samplers = Samplers::new(effort, extreme);
     let surfaces = alphas().map(surface::<f32>);
     let pairs = alphas().map(widths::<f32>);
     let caps = |alpha, input| visible(alpha, input, ours(&surface(alpha), input));
