@@ -2,6 +2,7 @@
 
 use core::array::from_fn;
 use core::hint::black_box;
+#[expect(clippy::std_instead_of_alloc, reason = "an example has std")]
 use std::rc::Rc;
 
 use microsurface::Real;
@@ -104,6 +105,7 @@ impl<T: Real, const N: usize> Arguments<T, N> {
         let scalar = Run::new(calls, move || {
             let mut turns = own.iter().cycle();
             for block in black_box(&blocks).iter() {
+                #[expect(clippy::needless_range_loop, reason = "an element of each array")]
                 for i in 0..BLOCK {
                     let Some(material) = turns.next() else { return };
                     black_box(call.call(material, from_fn(|k| block[k][i])));

@@ -212,6 +212,7 @@ fn dots(svg: &mut String, axes: &Axes, panel: &[&Row], margin: f64) {
             );
         }
         taken.extend([call, looped].map(|x| Rectangle([x - 5.0, y - 5.0, 10.0, 10.0])));
+        taken.push(Rectangle([call.min(looped), y - 1.0, (call - looped).abs(), 2.0]));
     }
     for (row, &[call, looped, y]) in panel.iter().zip(&positions) {
         #[expect(clippy::cast_precision_loss, reason = "a few letters")]
@@ -246,7 +247,8 @@ fn dots(svg: &mut String, axes: &Axes, panel: &[&Row], margin: f64) {
             svg,
             "<path d=\"M{from:.1} {y:.1}L{at:.1} {middle:.1}\" stroke=\"gray\" stroke-opacity=\".5\"/>"
         );
-        let below = if row.digits() < axes.least_digits { " ↓" } else { "" };
+        let below =
+            if row.digits() < axes.least_digits || !row.errors.worst.is_finite() { " ↓" } else { "" };
         let (baseline, name) = (top + 10.0, format!("{}{below}", row.name));
         let _ =
             writeln!(svg, "<text x=\"{at:.1}\" y=\"{baseline:.1}\" text-anchor=\"{anchor}\">{name}</text>");

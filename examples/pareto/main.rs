@@ -1,16 +1,22 @@
-//! Time per call against worst error: what an approximation of a mask or of a filter saves, and what it costs.
+//! Time per call against worst error: what an approximation saves, and what it costs.
 //!
 //! ```text
-//! cargo run --release --example pareto                      # about a minute
+//! cargo run --release --example pareto                      # four minutes
 //! cargo run --release --example pareto -- --quick           # coarse grids, rough times
 //! cargo run --release --example pareto -- --caption "CPU"   # a line below the charts
 //! ```
 //!
-//! Prints one Markdown table per question and writes it, as CSV and as an SVG chart, to `target/pareto/`. Errors of
-//! masks are absolute differences of G1 from the f64 quadrature of [`reference`], those of filters differences of P22 from
-//! that of [`filter`]'s as a share of the filtered peak: at the very numbers the function was given, so that the rounding
-//! of an argument to f32 is nobody's error. Times, of scalar calls and of loops over slices, are
-//! medians of rounds in which the alternatives take turns; only their ratios mean anything.
+//! Prints one Markdown table per question and writes it, as CSV and as an SVG chart, to `target/pareto/`. Errors are
+//! differences from f64 or 50 digits at the very numbers the function was given, so that the rounding of an argument to f32 is
+//! nobody's error:
+//! - of masks absolute differences of G1 from the quadrature of [`reference`],
+//! - of filters differences of P22 from that of [`filter`]'s as a share of the filtered peak,
+//! - of samplers displacements of the normal, in units of √density ([`vndf`]),
+//! - of elementary functions ulps ([`elementary`]),
+//! - of reflection in batches and of D and σ under maps relative ([`batch`], [`maps`]).
+//!
+//! Times, of scalar calls and of loops over slices, are medians of rounds in which the alternatives take turns; only
+//! their ratios mean anything.
 
 use core::error::Error;
 use std::io;

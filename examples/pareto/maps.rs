@@ -58,8 +58,9 @@ fn rows(table: &str, family: &str) -> Vec<Exact> {
         let [alpha, alpha_y, gamma, x, y, z, a, b] =
             [(); 8].map(|()| fields.next().and_then(|x| x.parse().ok()));
         let value: f64 = if of_d { b? } else { a? };
-        let wanted = name == family && alpha == alpha_y && gamma.is_none_or(|gamma: f64| gamma == GAMMA);
-        let near = !of_d || a? == 1.0;
+        let wanted =
+            name == family && alpha == alpha_y && gamma.is_none_or(|gamma: f64| (gamma - GAMMA).abs() < 1e-9);
+        let near = !of_d || a? > 0.0;
         let row = Exact { alpha: alpha?, direction: [x?, y?, z?], value };
         (wanted && near && row.direction[2] > 0.0 && value > 1e-30).then_some(row)
     });

@@ -28,6 +28,9 @@ pub(super) struct Function<T, const OUT: usize> {
     pub(super) scalar: core::marker::PhantomData<T>,
 }
 
+/// Arguments, and each result as a sum.
+type Known<const OUT: usize> = ([f64; 2], [(f64, f64); OUT]);
+
 /// What has been asked.
 #[derive(Default)]
 pub(super) struct Answers {
@@ -62,6 +65,7 @@ impl<T: Real, const OUT: usize> Function<T, OUT> {
         for (got, (high, low)) in got.into_iter().zip(exact) {
             let got = got.to_f64();
             // Both may be infinite.
+            #[expect(clippy::float_cmp, reason = "the same number, or the same infinity")]
             let same = got == high || T::lit(high) == T::lit(got) && !got.is_finite();
             let difference = if same { -low } else { (got - high) - low };
             errors.add(difference / ulp(scalar, high, self.absolute), || match self.domain[1] {
@@ -72,8 +76,8 @@ impl<T: Real, const OUT: usize> Function<T, OUT> {
     }
 
     /// The rows of the table: arguments, and each result as a sum.
-    fn table(&self) -> Vec<([f64; 2], [(f64, f64); OUT])> {
-        let mut table: Vec<([f64; 2], [(f64, f64); OUT])> = Vec::new();
+    fn table(&self) -> Vec<Known<OUT>> {
+        let mut table: Vec<Known<OUT>> = Vec::new();
         for (result, name) in self.in_table.iter().enumerate() {
             let lines = TABLE.lines().filter(|line| line.split('\t').next() == Some(name));
             for (i, line) in lines.enumerate() {

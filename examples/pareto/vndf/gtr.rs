@@ -10,7 +10,7 @@ use microsurface::profile::SampleVisibleProfile;
 use microsurface::profile::gtr::Gtr;
 use microsurface::{Isotropic, Microsurface, Ndf, Real, SampleVndf};
 
-use super::{ALPHAS, Input, Samplers, VISIBLE, alphas, usual};
+use super::{Input, Samplers, VISIBLE, alphas, usual};
 use crate::Effort;
 use crate::blocks::call;
 
@@ -42,12 +42,12 @@ fn gtr<P: SampleVisibleProfile<f32> + 'static, Q: SampleVisibleProfile<f64> + 's
     double: impl Fn(f64) -> Option<Microsurface<Q, Isotropic<f64>>>,
 ) {
     let singles = alphas().map(|alpha| single(alpha).expect("a width"));
-    let widened = alphas::<f32>().map(|alpha| double(alpha.into()).expect("a width"));
+    let widened = alphas::<f32>().map(|alpha| (f64::from(alpha), double(alpha.into()).expect("a width")));
     samplers.single(name, VISIBLE, &singles, Sample, |alpha, input| {
-        let which = ALPHAS.iter().position(|&a| f64::from(f32::lit(a)) == alpha).expect("one of them");
-        exact(&widened[which], input)
+        let nearest = widened.iter().min_by(|a, b| (a.0 - alpha).abs().total_cmp(&(b.0 - alpha).abs()));
+        exact(&nearest.expect("one of them").1, input)
     });
-    samplers.double(name, &widened, Sample);
+    samplers.double(name, &widened.map(|(_, surface)| surface), Sample);
 }
 
 pub(super) fn run(effort: &Effort, out: &mut impl Write) -> io::Result<()> {
