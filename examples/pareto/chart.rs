@@ -32,7 +32,9 @@ impl Layout {
         if one {
             return Self { columns: 1, width: 860.0, height: 430.0, right: 110.0, head: 0.0 };
         }
-        let columns = if panels.len() > 8 { 3 } else { 2 };
+        // Both scalars side by side.
+        let both = panels.iter().any(|panel| panel[0].scalar != panels[0][0].scalar);
+        let columns = if both || panels.len() < 8 { 2 } else { 3 };
         Self { columns, width: 430.0, height: 300.0, right: 30.0, head: 40.0 }
     }
 }

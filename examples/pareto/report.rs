@@ -31,9 +31,11 @@ impl Row {
         if worst.is_finite() { -worst.max(1e-17).log10() } else { 0.0 }
     }
 
-    /// No other of the same scalar that is made for as much is both faster and more accurate.
+    /// No other of the same question that is made for as much is both faster and more accurate.
     pub(crate) fn on_frontier(&self, rows: &[Row], time: usize) -> bool {
-        let Some(ns) = self.ns[time].filter(|_| self.errors.known()) else { return false };
+        let Some(ns) = self.ns[time].filter(|_| self.errors.known() && self.errors.worst.is_finite()) else {
+            return false;
+        };
         !rows.iter().any(|other| {
             other.question() == self.question()
                 && other.domain.0 <= self.domain.0
