@@ -1,9 +1,10 @@
 //! Functions of a few numbers of a material and a few arguments, timed as scalar calls and as loops over slices.
 
+extern crate alloc;
+
+use alloc::rc::Rc;
 use core::array::from_fn;
 use core::hint::black_box;
-#[expect(clippy::std_instead_of_alloc, reason = "an example has std")]
-use std::rc::Rc;
 
 use microsurface::Real;
 use rand::{RngExt, SeedableRng};
