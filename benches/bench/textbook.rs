@@ -7,8 +7,12 @@
 use microsurface::Real;
 use microsurface::fresnel::Spectrum;
 
+// With their paths, so that an example can have this file by its own.
+#[path = "textbook/beckmann.rs"]
 pub(crate) mod beckmann;
+#[path = "textbook/filter.rs"]
 pub(crate) mod filter;
+#[path = "textbook/ggx.rs"]
 pub(crate) mod ggx;
 
 /// The functions of `std` that the textbook calls.
@@ -17,6 +21,7 @@ pub(crate) trait Elementary: Real + Spectrum<Scalar = Self> {
     fn cos(self) -> Self;
     fn acos(self) -> Self;
     fn exp(self) -> Self;
+    fn ln(self) -> Self;
     fn powf(self, exponent: Self) -> Self;
     fn atan(self) -> Self;
     fn atan2(self, x: Self) -> Self;
@@ -40,6 +45,10 @@ macro_rules! elementary {
             #[inline(always)]
             fn exp(self) -> Self {
                 $t::exp(self)
+            }
+            #[inline(always)]
+            fn ln(self) -> Self {
+                $t::ln(self)
             }
             #[inline(always)]
             fn powf(self, exponent: Self) -> Self {
@@ -73,8 +82,8 @@ impl<T> Width<T> {
 /// A slope width along each axis.
 #[derive(Clone, Copy)]
 pub(crate) struct Anisotropic<T> {
-    alpha_x: T,
-    alpha_y: T,
+    pub(crate) alpha_x: T,
+    pub(crate) alpha_y: T,
 }
 
 impl<T: Real> Anisotropic<T> {

@@ -2,6 +2,7 @@
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion};
+use microsurface::elementary::{erf, erf_inv};
 use microsurface::profile::SampleVisibleProfile;
 use microsurface::{Beckmann, Ggx, Gtr, Isotropic, Microsurface, Real, SampleVndf};
 
@@ -40,8 +41,14 @@ fn scalar<T: Elementary>(criterion: &mut Criterion) {
     calls(&mut group, ("heitz2018-ggx", "axis-aligned"), &pairs, &arrays, |&a, (w, u)| {
         ggx::visible_normal_heitz2018(a, w, u)
     });
+    calls(&mut group, ("dupuy2023-ggx", "axis-aligned"), &pairs, &arrays, |&a, (w, u)| {
+        ggx::visible_normal_dupuy2023(a, w, u)
+    });
     calls(&mut group, ("jakob2014-beckmann", "isotropic"), &widths, &arrays, |&a, (w, u)| {
-        beckmann::visible_normal_jakob2014(a, w, u)
+        beckmann::visible_normal_jakob2014(a, w, u, erf, erf_inv)
+    });
+    calls(&mut group, ("mitsuba-beckmann", "isotropic"), &widths, &arrays, |&a, (w, u)| {
+        beckmann::visible_normal_mitsuba(a, w, u)
     });
     group.finish();
 }

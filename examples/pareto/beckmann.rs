@@ -63,9 +63,9 @@ pub(crate) fn run(effort: &Effort, out: &mut impl Write) -> io::Result<()> {
         .map(|((name, scalar, errors), ns)| Row {
             name: name.into(),
             scalar,
-            domain: (0.0, 0.0),
             ns: ns.map(Some),
             errors,
+            ..Row::default()
         })
         .collect();
     report(out, effort, "beckmann_mask", "Beckmann: G1", &rows)

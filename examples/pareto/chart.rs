@@ -1,37 +1,64 @@
-//! Correct digits over the logarithm of the time, as SVG: a panel for each scalar that has alternatives.
+//! Correct digits over the logarithm of the time, as SVG: a panel for each question.
 
 use core::fmt::Write as _;
 
-use crate::report::Row;
+use crate::report::{Row, epsilon};
 
-const WIDTH: f64 = 860.0;
-const PANEL: f64 = 430.0;
-const LEFT: f64 = 60.0;
-const RIGHT: f64 = 110.0;
-const TOP: f64 = 50.0;
-const BOTTOM: f64 = 40.0;
 /// Of the labels: the width of a letter is a mean, for DejaVu Sans the widest of the usual fonts.
 const LETTER: f64 = 6.3;
 const LINE: f64 = 13.0;
 
+/// How panels stand on the sheet.
+struct Layout {
+    columns: usize,
+    /// Of a panel, with its margins.
+    width: f64,
+    height: f64,
+    /// The margin right of the axes.
+    right: f64,
+    /// The height of what stands above all panels.
+    head: f64,
+}
+
+/// Left of and above the axes of a panel, and below them.
+const LEFT: f64 = 60.0;
+const TOP: f64 = 50.0;
+const BOTTOM: f64 = 40.0;
+
+impl Layout {
+    /// Of one question in each scalar, or of several.
+    fn of(panels: &[Vec<&Row>]) -> Self {
+        let one = panels.iter().all(|panel| panel[0].group.is_empty());
+        if one {
+            return Self { columns: 1, width: 860.0, height: 430.0, right: 110.0, head: 0.0 };
+        }
+        // Both scalars side by side.
+        let both = panels.iter().any(|panel| panel[0].scalar != panels[0][0].scalar);
+        let columns = if both || panels.len() < 8 { 2 } else { 3 };
+        Self { columns, width: 430.0, height: 300.0, right: 30.0, head: 40.0 }
+    }
+}
+
 /// Where a panel has its times and digits.
 struct Axes {
+    left: f64,
+    right: f64,
     top: f64,
+    bottom: f64,
     fastest: f64,
     slowest: f64,
-    /// 0, or below where errors are larger than 1.
+    /// 0, or below where errors are larger than 1; in small panels such errors stand at 0, with an arrow.
     least_digits: f64,
     most_digits: f64,
 }
 
 impl Axes {
     fn x(&self, ns: f64) -> f64 {
-        LEFT + (WIDTH - LEFT - RIGHT) * (ns / self.fastest).ln() / (self.slowest / self.fastest).ln()
+        self.left + (self.right - self.left) * (ns / self.fastest).ln() / (self.slowest / self.fastest).ln()
     }
     fn y(&self, digits: f64) -> f64 {
-        self.top + PANEL
-            - BOTTOM
-            - (PANEL - TOP - BOTTOM) * (digits - self.least_digits) / (self.most_digits - self.least_digits)
+        let share = (digits - self.least_digits) / (self.most_digits - self.least_digits);
+        self.bottom - (self.bottom - self.top) * share.max(0.0)
     }
 }
 
@@ -48,47 +75,70 @@ impl Rectangle {
 }
 
 /// Dots of calls are full, those of loops empty; those of alternatives made for less than the whole range are green. Lines
-/// are the frontiers of those made for all of it.
+/// are the frontiers of those made for all of it, of calls drawn through and of loops dashed.
 pub(crate) fn chart(title: &str, caption: &str, rows: &[Row]) -> String {
-    let panels: Vec<(Vec<&Row>, f64)> = ["f32", "f64"]
-        .into_iter()
-        .zip([9.0, 18.0])
-        .map(|(scalar, most)| (rows.iter().filter(|row| row.scalar == scalar).collect(), most))
-        .filter(|(panel, _): &(Vec<&Row>, f64)| !panel.is_empty())
-        .collect();
-    let times = || rows.iter().flat_map(|row| row.ns).flatten();
-    let looped = rows.iter().any(|row| row.ns[1].is_some());
-    let least_digits = rows.iter().map(Row::digits).fold(0.0, f64::min);
-    let least_digits = 2.0 * (0.5 * least_digits).floor();
+    let mut panels: Vec<Vec<&Row>> = Vec::new();
+    for row in rows.iter().filter(|row| row.errors.known()) {
+        match panels.iter_mut().find(|panel| panel[0].question() == row.question()) {
+            Some(panel) => panel.push(row),
+            None => panels.push(vec![row]),
+        }
+    }
+    let times = || panels.iter().flatten().flat_map(|row| row.ns).flatten();
     let fastest = 2_f64.powf(times().fold(f64::INFINITY, f64::min).log2().floor());
     let slowest = 2_f64.powf(times().fold(0.0, f64::max).log2().ceil()).max(2.0 * fastest);
-    let height = panels.iter().map(|_| PANEL).sum::<f64>() + 30.0;
+    let looped = rows.iter().any(|row| row.ns[1].is_some());
+    let times = if looped { "ns, a scalar call ● or in a loop ○" } else { "ns of a scalar call" };
+    let layout = Layout::of(&panels);
+    #[expect(clippy::cast_precision_loss, reason = "a few panels")]
+    let (columns, lines) = (layout.columns as f64, panels.len().div_ceil(layout.columns) as f64);
+    let (width, height) = (columns * layout.width, layout.head + lines * layout.height + 30.0);
     let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" font-family=\"sans-serif\" \
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" \
          font-size=\"11\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
     );
-    for ((panel, most_digits), top) in panels.iter().zip([0.0, PANEL]) {
-        let axes = Axes { top, fastest, slowest, least_digits, most_digits: *most_digits };
-        let times = if looped { "ns, a scalar call ● or in a loop ○" } else { "ns of a scalar call" };
-        let _ = writeln!(
-            svg,
-            "<text x=\"{LEFT}\" y=\"{:.0}\" font-size=\"15\">{title}, {}: correct digits over {times}</text>",
-            top + 30.0,
-            panel[0].scalar
-        );
-        grid(&mut svg, &axes);
+    let text = |svg: &mut String, x: f64, y: f64, style: &str, text: &str| {
+        let _ = writeln!(svg, "<text x=\"{x:.0}\" y=\"{y:.0}\" {style}>{text}</text>");
+    };
+    if layout.head > 0.0 {
+        let title = format!("{title}: correct digits over {times}");
+        text(&mut svg, LEFT, 28.0, "font-size=\"15\"", &title);
+    }
+    let places = (0..).map(|i| (i / layout.columns, i % layout.columns));
+    for (panel, (line, column)) in panels.iter().zip(places) {
+        #[expect(clippy::cast_precision_loss, reason = "a few panels")]
+        let (left, top) = (column as f64 * layout.width, layout.head + line as f64 * layout.height);
+        let (group, scalar) = panel[0].question();
+        let least =
+            if group.is_empty() { panel.iter().map(|row| row.digits()).fold(0.0, f64::min) } else { 0.0 };
+        let axes = Axes {
+            left: left + LEFT,
+            right: left + layout.width - layout.right,
+            top: top + TOP,
+            bottom: top + layout.height - BOTTOM,
+            fastest,
+            slowest,
+            least_digits: 2.0 * (0.5 * least).floor(),
+            most_digits: if scalar == "f64" { 18.0 } else { 9.0 },
+        };
+        if group.is_empty() {
+            let title = format!("{title}, {scalar}: correct digits over {times}");
+            text(&mut svg, axes.left, top + 30.0, "font-size=\"15\"", &title);
+        } else {
+            text(&mut svg, axes.left, top + 40.0, "font-size=\"13\"", &format!("{group}, {scalar}"));
+        }
+        grid(&mut svg, &axes, epsilon(scalar));
         for time in [0, 1] {
             frontier(&mut svg, &axes, rows, panel, time);
         }
-        dots(&mut svg, &axes, panel);
+        dots(&mut svg, &axes, panel, layout.right);
     }
-    let _ =
-        writeln!(svg, "<text x=\"{LEFT}\" y=\"{:.0}\" fill=\"gray\">{caption}</text>\n</svg>", height - 14.0);
-    svg
+    text(&mut svg, LEFT, height - 14.0, "fill=\"gray\"", caption);
+    svg + "</svg>\n"
 }
 
-fn grid(svg: &mut String, axes: &Axes) {
-    let (left, right) = (LEFT, WIDTH - RIGHT);
+fn grid(svg: &mut String, axes: &Axes, epsilon: f64) {
+    let (left, right) = (axes.left, axes.right);
     let mut line = |from: (f64, f64), to: (f64, f64), style: &str| {
         let ((x1, y1), (x2, y2)) = (from, to);
         let _ = writeln!(svg, "<path d=\"M{x1:.1} {y1:.1}L{x2:.1} {y2:.1}\" stroke=\"gray\" {style}/>");
@@ -108,7 +158,6 @@ fn grid(svg: &mut String, axes: &Axes) {
         labels.push((x, axes.y(axes.least_digits) + 16.0, "middle", tick.to_string()));
         tick *= 2.0;
     }
-    let epsilon = if axes.most_digits > 10.0 { f64::EPSILON } else { f32::EPSILON.into() };
     let y = axes.y(-epsilon.log10());
     line((left, y), (right, y), "stroke-dasharray=\"6 4\"");
     labels.push((right + 8.0, y + 4.0, "start", "ε".into()));
@@ -138,23 +187,26 @@ fn frontier(svg: &mut String, axes: &Axes, rows: &[Row], panel: &[&Row], time: u
 }
 
 /// A pair of dots a row, joined, and its name where it overlaps least with what is there.
-fn dots(svg: &mut String, axes: &Axes, panel: &[&Row]) {
+fn dots(svg: &mut String, axes: &Axes, panel: &[&Row], margin: f64) {
     let mut taken: Vec<Rectangle> = Vec::new();
-    // Where there is no loop, its place is that of the call.
+    // Where there is no loop or no call, its place is that of the other.
     let positions: Vec<[f64; 3]> = panel
         .iter()
         .map(|row| {
-            let call = axes.x(row.ns[0].unwrap_or(axes.fastest));
-            [call, row.ns[1].map_or(call, |ns| axes.x(ns)), axes.y(row.digits())]
+            let [call, looped] = row.ns;
+            let x = |ns: Option<f64>| axes.x(ns.unwrap_or(axes.fastest));
+            [x(call.or(looped)), x(looped.or(call)), axes.y(row.digits())]
         })
         .collect();
     for (row, &[call, looped, y]) in panel.iter().zip(&positions) {
         let colour = if whole(row, panel) { "navy" } else { "seagreen" };
         let _ = writeln!(
             svg,
-            "<path d=\"M{call:.1} {y:.1}H{looped:.1}\" stroke=\"{colour}\" stroke-opacity=\".35\"/>\
-             <circle cx=\"{call:.1}\" cy=\"{y:.1}\" r=\"4\" fill=\"{colour}\"/>"
+            "<path d=\"M{call:.1} {y:.1}H{looped:.1}\" stroke=\"{colour}\" stroke-opacity=\".35\"/>"
         );
+        if row.ns[0].is_some() {
+            let _ = writeln!(svg, "<circle cx=\"{call:.1}\" cy=\"{y:.1}\" r=\"4\" fill=\"{colour}\"/>");
+        }
         if row.ns[1].is_some() {
             let _ = writeln!(
                 svg,
@@ -162,6 +214,7 @@ fn dots(svg: &mut String, axes: &Axes, panel: &[&Row]) {
             );
         }
         taken.extend([call, looped].map(|x| Rectangle([x - 5.0, y - 5.0, 10.0, 10.0])));
+        taken.push(Rectangle([call.min(looped), y - 1.0, (call - looped).abs(), 2.0]));
     }
     for (row, &[call, looped, y]) in panel.iter().zip(&positions) {
         #[expect(clippy::cast_precision_loss, reason = "a few letters")]
@@ -175,10 +228,10 @@ fn dots(svg: &mut String, axes: &Axes, panel: &[&Row]) {
         let cost = |candidate| {
             let label = place(candidate);
             let Rectangle([x, top, ..]) = label;
-            let outside = x < LEFT
-                || x + width > WIDTH
-                || top < axes.top + TOP
-                || top + LINE > axes.y(axes.least_digits);
+            let outside = x < axes.left
+                || x + width > axes.right + margin
+                || top < axes.top
+                || top + LINE > axes.bottom;
             let overlap: f64 = taken.iter().map(|&other| label.overlap(other)).sum();
             overlap + LINE * candidate.0.abs() + if outside { 1e4 } else { 0.0 }
         };
@@ -196,7 +249,9 @@ fn dots(svg: &mut String, axes: &Axes, panel: &[&Row]) {
             svg,
             "<path d=\"M{from:.1} {y:.1}L{at:.1} {middle:.1}\" stroke=\"gray\" stroke-opacity=\".5\"/>"
         );
-        let (baseline, name) = (top + 10.0, &row.name);
+        let below =
+            if row.digits() < axes.least_digits || !row.errors.worst.is_finite() { " ↓" } else { "" };
+        let (baseline, name) = (top + 10.0, format!("{}{below}", row.name));
         let _ =
             writeln!(svg, "<text x=\"{at:.1}\" y=\"{baseline:.1}\" text-anchor=\"{anchor}\">{name}</text>");
     }

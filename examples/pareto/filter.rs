@@ -81,13 +81,7 @@ impl Question<'_> {
             for (case, error) in cases.iter().zip(&errors) {
                 total.add(*error, || describe(&case.pixel));
             }
-            rows.push(Row {
-                name: name.into(),
-                scalar: "f32",
-                domain: (0.0, 0.0),
-                ns: [None; 2],
-                errors: total,
-            });
+            rows.push(Row { name: name.into(), scalar: "f32", errors: total, ..Row::default() });
             runs.push(run);
             all.push((name, errors));
         }

@@ -161,7 +161,7 @@ pub(crate) fn run(effort: &Effort, out: &mut impl Write) -> io::Result<()> {
             let Some((domain, errors)) = alternative.within(&gammas) else { continue };
             let (name, scalar) = (alternative.name.clone(), alternative.scalar);
             runs.extend(choose(alternative));
-            rows.push(Row { name, scalar, domain, ns: [None; 2], errors });
+            rows.push(Row { name, scalar, domain, errors, ..Row::default() });
         }
         for (row, ns) in rows.iter_mut().zip(pairs_of_times(runs, effort.rounds)) {
             row.ns = ns.map(Some);

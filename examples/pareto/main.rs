@@ -1,27 +1,41 @@
-//! Time per call against worst error: what an approximation of a mask or of a filter saves, and what it costs.
+//! Time per call against worst error: what an approximation saves, and what it costs.
 //!
 //! ```text
-//! cargo run --release --example pareto                      # about a minute
+//! cargo run --release --example pareto                      # four minutes
 //! cargo run --release --example pareto -- --quick           # coarse grids, rough times
 //! cargo run --release --example pareto -- --caption "CPU"   # a line below the charts
 //! ```
 //!
-//! Prints one Markdown table per question and writes it, as CSV and as an SVG chart, to `target/pareto/`. Errors of
-//! masks are absolute differences of G1 from the f64 quadrature of [`reference`], those of filters differences of P22 from
-//! that of [`filter`]'s as a share of the filtered peak: at the very numbers the function was given, so that the rounding
-//! of an argument to f32 is nobody's error. Times, of scalar calls and of loops over slices, are
-//! medians of rounds in which the alternatives take turns; only their ratios mean anything.
+//! Prints one Markdown table per question and writes it, as CSV and as an SVG chart, to `target/pareto/`. Errors are
+//! differences from f64 or 50 digits at the very numbers the function was given, so that the rounding of an argument to f32 is
+//! nobody's error:
+//! - of masks absolute differences of G1 from the quadrature of [`reference`],
+//! - of filters differences of P22 from that of [`filter`]'s as a share of the filtered peak,
+//! - of samplers displacements of the normal, in units of √density ([`vndf`]),
+//! - of elementary functions ulps ([`elementary`]),
+//! - of reflection in batches and of D and σ under maps relative ([`batch`], [`maps`]).
+//!
+//! Times, of scalar calls and of loops over slices, are medians of rounds in which the alternatives take turns; only
+//! their ratios mean anything.
 
 use core::error::Error;
 use std::io;
 
+mod batch;
 mod beckmann;
+mod blocks;
 mod chart;
+mod elementary;
 mod filter;
 mod gtr;
+mod maps;
 mod measure;
 mod reference;
 mod report;
+#[path = "../../benches/bench/textbook.rs"]
+#[allow(dead_code, reason = "benchmarks use the rest")]
+mod textbook;
+mod vndf;
 
 /// How finely errors are searched, and how long times are taken.
 pub(crate) struct Effort {
@@ -31,6 +45,8 @@ pub(crate) struct Effort {
     pub(crate) gammas: u32,
     /// Pixels per size and shape of a footprint.
     pub(crate) pixels: usize,
+    /// Arguments of which the errors of samplers and elementary functions are taken.
+    pub(crate) samples: usize,
     /// Rounds of timing.
     pub(crate) rounds: usize,
     /// What stands below the charts.
@@ -51,14 +67,18 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     }
     let effort = if quick {
-        Effort { angles: 120, gammas: 4, pixels: 3, rounds: 20, caption }
+        Effort { angles: 120, gammas: 4, pixels: 3, samples: 1 << 14, rounds: 20, caption }
     } else {
-        Effort { angles: 600, gammas: 20, pixels: 40, rounds: 300, caption }
+        Effort { angles: 600, gammas: 20, pixels: 40, samples: 1 << 20, rounds: 300, caption }
     };
     let mut out = io::stdout().lock();
     reference::validate(&mut out)?;
     beckmann::run(&effort, &mut out)?;
     gtr::run(&effort, &mut out)?;
     filter::run(&effort, &mut out)?;
+    vndf::run(&effort, &mut out)?;
+    elementary::run(&effort, &mut out)?;
+    batch::run(&effort, &mut out)?;
+    maps::run(&effort, &mut out)?;
     Ok(())
 }

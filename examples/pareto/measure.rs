@@ -35,6 +35,11 @@ impl Errors {
         }
     }
 
+    /// There is something to compare with.
+    pub(crate) fn known(&self) -> bool {
+        self.count > 0.0
+    }
+
     pub(crate) fn rms(&self) -> f64 {
         (self.sum_of_squares / self.count).sqrt()
     }
@@ -64,18 +69,18 @@ pub(crate) fn degrees((s2, z): (f64, f64)) -> f64 {
 
 /// Something that is timed as a whole, and of how many calls it consists.
 pub(crate) struct Run {
-    calls: u16,
+    calls: u32,
     run: Box<dyn FnMut()>,
 }
 
 impl Run {
-    pub(crate) fn new(calls: u16, run: impl FnMut() + 'static) -> Self {
+    pub(crate) fn new(calls: u32, run: impl FnMut() + 'static) -> Self {
         Self { calls, run: Box::new(run) }
     }
 }
 
 /// Arguments per round.
-const CALLS: u16 = 4096;
+const CALLS: u32 = 4096;
 
 /// Arguments that a loop over slices takes for one material.
 const SLICE: usize = 128;
@@ -86,7 +91,7 @@ const SLICE: usize = 128;
 /// and what denormal numbers cost is no property of the method.
 fn arguments<T: Real>() -> Vec<T::Vec3> {
     const COUNT: u32 = 4093;
-    (0..u32::from(CALLS))
+    (0..CALLS)
         .map(|i| {
             let z = (f64::from(i * 1291 % COUNT) + 0.5) / f64::from(COUNT);
             [T::lit(((1.0 - z) * (1.0 + z)).sqrt()), T::ZERO, T::lit(z)].into()
@@ -114,9 +119,9 @@ fn calls<T: Real, N: 'static>(materials: Vec<N>, call: impl Fn(&N, T::Vec3) -> T
 
 /// A run of scalar calls of arguments of any kind, whose results are opaque.
 pub(crate) fn calls_of<A: 'static, R>(arguments: Vec<A>, call: impl Fn(&A) -> R + 'static) -> Run {
-    let calls = u16::try_from(arguments.len()).unwrap_or(u16::MAX);
+    let calls = u32::try_from(arguments.len()).expect("fewer arguments");
     Run::new(calls, move || {
-        for argument in black_box(&arguments).iter().take(calls.into()) {
+        for argument in black_box(&arguments) {
             black_box(call(argument));
         }
     })

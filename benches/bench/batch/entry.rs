@@ -8,6 +8,7 @@ use criterion::Criterion;
 use microsurface::batch::dispatch::{Level, highest, limit_to};
 use microsurface::batch::{self, DirectionsMut, NdfBatch, Numbers, ReflectionBatch, Samples};
 use microsurface::bsdf::RoughConductor;
+use microsurface::elementary::{erf, erf_inv};
 use microsurface::fresnel::{Schlick, Spectrum};
 use microsurface::{Beckmann, Ggx, Gtr, Ndf, Real, SampleVndf};
 
@@ -108,7 +109,7 @@ impl<T: Elementary + Spectrum<Scalar = T>> Arguments<T> {
         compare(criterion, "entry_visible_normal_ggx", n, &mut [(scalar, normal)]);
         let mut normals = [0, 1, 2].map(|_| vec![T::ZERO; n]);
         let normal = |w: T::Vec3, u: T::Vec2| {
-            black_box(beckmann::visible_normal_jakob2014(width, w.into(), u.into()).into())
+            black_box(beckmann::visible_normal_jakob2014(width, w.into(), u.into(), erf, erf_inv).into())
         };
         let normal = &mut |_: &mut [T]| normal_slices(wo, u, &mut normals, normal);
         compare(criterion, "entry_visible_normal_beckmann", n, &mut [(scalar, normal)]);

@@ -45,24 +45,59 @@ pub(crate) fn reflection_walter2007<T: Elementary>(width: Width<T>, f0: T, wi: [
 
 /// Heitz and d'Eon 2014, §4.1, the slope along the view inverted as in Jakob 2014, "An improved visible normal sampling
 /// routine for the Beckmann distribution": Newton's iteration for b = erf(slope), guarded by bisection, until the
-/// distribution function is met to 1e-5 or ten steps are done.
+/// distribution function is met to 1e-5 or ten steps are done; by these error functions.
 #[inline(always)]
 pub(crate) fn visible_normal_jakob2014<T: Elementary>(
+    width: Width<T>,
+    w: [T; 3],
+    u: [T; 2],
+    erf: impl Fn(T) -> T + Copy,
+    erf_inv: impl Fn(T) -> T + Copy,
+) -> [T; 3] {
+    visible_normal(width, w, u, erf_inv, |cos, sin, u| slope_jakob2014(cos, sin, u, erf, erf_inv))
+}
+
+/// The same as in Mitsuba: another start, without jumps in u, and three steps of Newton's without a guard.
+#[inline(always)]
+pub(crate) fn visible_normal_mitsuba<T: Elementary>(width: Width<T>, w: [T; 3], u: [T; 2]) -> [T; 3] {
+    visible_normal(width, w, u, erf_inv, slope_mitsuba)
+}
+
+/// A normal of the slope `along` the view of cosine, sine and number.
+#[inline(always)]
+fn visible_normal<T: Elementary>(
     Width { alpha }: Width<T>,
     w: [T; 3],
     [u1, u2]: [T; 2],
+    erf_inv: impl Fn(T) -> T,
+    along: impl Fn(T, T, T) -> T,
 ) -> [T; 3] {
     let view = normalized([alpha * w[0], alpha * w[1], w[2]]);
     let sin = (view[0] * view[0] + view[1] * view[1]).sqrt();
     let [cos_phi, sin_phi] = if sin > T::ZERO { [view[0] / sin, view[1] / sin] } else { [T::ONE, T::ZERO] };
-    let along = slope_along(view[2], sin, u1.max(T::lit(1e-6)));
+    let along = along(view[2], sin, u1.max(T::lit(1e-6)));
     let across = erf_inv(T::TWO * u2.max(T::lit(1e-6)) - T::ONE);
     let [x, y] = [cos_phi * along - sin_phi * across, sin_phi * along + cos_phi * across];
     normalized([-alpha * x, -alpha * y, T::ONE])
 }
 
 #[inline(always)]
-fn slope_along<T: Elementary>(cos: T, sin: T, u: T) -> T {
+fn slope_mitsuba<T: Elementary>(cos: T, sin: T, u: T) -> T {
+    let (tan, cot, one) = (sin / cos, cos / sin, T::ONE);
+    let u = u.min(one - T::lit(1e-6));
+    let start = erf(cot);
+    let scale = tan * T::FRAC_1_SQRT_PI;
+    let mut b = start - (start + one) * erf((-u.ln()).sqrt());
+    let mass = u * (one + start + scale * (-cot * cot).exp());
+    for _ in 0..3 {
+        let slope = erf_inv(b);
+        b -= (one + b + scale * (-slope * slope).exp() - mass) / (one - slope * tan);
+    }
+    erf_inv(b)
+}
+
+#[inline(always)]
+fn slope_jakob2014<T: Elementary>(cos: T, sin: T, u: T, erf: impl Fn(T) -> T, erf_inv: impl Fn(T) -> T) -> T {
     let tan = sin / cos;
     let cot = cos / sin;
     let one = T::ONE;

@@ -1,4 +1,4 @@
-//! GGX after Walter 2007 (Eqs. 33–34), Burley 2012 and Heitz 2014 and 2018.
+//! GGX after Walter 2007 (Eqs. 33–34), Burley 2012, Heitz 2014 and 2018, and Dupuy and Benyoub 2023.
 
 use microsurface::Real;
 
@@ -81,6 +81,22 @@ pub(crate) fn visible_normal_heitz2018<T: Elementary>(
     let t3 = (T::ONE - t1 * t1 - t2 * t2).max(T::ZERO).sqrt();
     let normal = [0, 1, 2].map(|i| t1 * first[i] + t2 * second[i] + t3 * view[i]);
     normalized([alpha_x * normal[0], alpha_y * normal[1], normal[2].max(T::ZERO)])
+}
+
+/// Dupuy and Benyoub 2023, "Sampling visible GGX normals with spherical caps", as printed: a point of the cap about the
+/// vertical that the stretched view bounds, and the half vector of both.
+#[inline(always)]
+pub(crate) fn visible_normal_dupuy2023<T: Elementary>(
+    Anisotropic { alpha_x, alpha_y }: Anisotropic<T>,
+    w: [T; 3],
+    [u1, u2]: [T; 2],
+) -> [T; 3] {
+    let view = normalized([alpha_x * w[0], alpha_y * w[1], w[2]]);
+    let phi = T::TWO * T::PI * u1;
+    let z = (T::ONE - u2) * (T::ONE + view[2]) - view[2];
+    let sin = (T::ONE - z * z).max(T::ZERO).min(T::ONE).sqrt();
+    let half = [sin * phi.cos() + view[0], sin * phi.sin() + view[1], z + view[2]];
+    normalized([alpha_x * half[0], alpha_y * half[1], half[2]])
 }
 
 /// A reflected direction by a visible normal, with the weight F G2/G1 and the density D G1/(4 cos): Heitz 2018, §5.

@@ -19,18 +19,18 @@ struct Kind {
 }
 
 /// How often a constructor is called in a round; a table's, in which 80 rules are made, less often.
-const CALLS: u16 = 256;
-const CALLS_OF_TABLE: u16 = 4;
+const CALLS: u32 = 256;
+const CALLS_OF_TABLE: u32 = 4;
 
 fn kind<T: Real, N: 'static>(
     name: &'static str,
     gamma: f64,
-    calls: u16,
+    calls: u32,
     make: impl Fn(T, T) -> Option<N> + 'static,
 ) -> Kind {
     let widths = ALPHAS.map(T::lit);
     let run = Run::new(calls, move || {
-        for &alpha in widths.iter().cycle().take(calls.into()) {
+        for &alpha in widths.iter().cycle().take(calls as usize) {
             black_box(make(black_box(alpha), black_box(T::lit(gamma))));
         }
     });
