@@ -129,8 +129,11 @@ impl<P: Profile<M::Scalar>, M: Map> Ndf for Microsurface<P, M> {
         let s2 = self.map.direction_term(w);
         // Both of |z|, so that they share what they have in common.
         let z = w[2].abs();
-        let (above, backfacing) = (self.profile.sigma_above(s2, z), self.profile.sigma_backfacing(s2, z));
-        if w[2] < M::Scalar::ZERO { backfacing } else { above }
+        if w[2] < M::Scalar::ZERO {
+            self.profile.sigma_backfacing(s2, z)
+        } else {
+            self.profile.sigma_above(s2, z)
+        }
     }
 
     #[inline(always)]
