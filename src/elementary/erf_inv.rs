@@ -26,8 +26,10 @@ fn inverse<T: Real, W: Real>(p: W, q: W, ln: impl Fn(W) -> W) -> W {
 #[inline(always)]
 fn selected<W: Real>(v: W, near: bool, central: bool, [a, b, c]: [&'static [f64]; 3]) -> W {
     polynomial_of(v, a.len(), |i| {
-        let tail = if near { W::lit(b[i]) } else { W::lit(c[i]) };
-        if central { W::lit(a[i]) } else { tail }
+        // All three at hand before one is chosen: a chosen address would be a load from who knows where.
+        let [a, b, c] = [a[i], b[i], c[i]].map(W::lit);
+        let tail = if near { b } else { c };
+        if central { a } else { tail }
     })
 }
 

@@ -155,8 +155,8 @@ impl<T: Real, K: Masking<T>> Profile<T> for Gtr<T, K> {
     #[inline(always)]
     fn d<M: Map<Scalar = T>>(&self, map: &M, m: [T; 3], length2: T) -> T {
         let (q, z2) = map.normal_terms_wide(m);
-        let gamma = self.density.gamma;
-        self.density.homogeneous(map.scale(), q, z2, length2, |n, d| K::root_of_power(n, d, gamma))
+        let (sum, [n, d]) = self.density.ratio(q, z2);
+        self.density.homogeneous(map.scale(), length2, sum, K::root_of_power(n, d, self.density.gamma))
     }
 
     #[inline(always)]
@@ -312,26 +312,25 @@ impl<T: Real> Density<T> {
     pub fn d(&self, wm: T::Vec3) -> T {
         let m: [T; 3] = wm.into();
         let [x, y, z] = m.map(T::widen);
-        let power = |n, d| root_of_power(n, d, self.gamma);
-        let d = self.homogeneous(T::FRAC_1_PI, x * x + y * y, z * z, T::ONE, power);
+        let (sum, [n, d]) = self.ratio(x * x + y * y, z * z);
+        let d = self.homogeneous(T::FRAC_1_PI, T::ONE, sum, root_of_power(n, d, self.gamma));
         if m[2] < T::ZERO { T::ZERO } else { d }
     }
 
-    /// `scale` `length2`² π c (z² + q)^{γ−2}/(q + α²z²)^γ, with the function that gives (n/d)^{−γ/2}.
+    /// z² + q, and numerator and denominator of (q + α²z²)/(α²(z² + q)) ≥ 1.
     #[inline(always)]
-    fn homogeneous(
-        &self,
-        scale: T,
-        q: T::Wide,
-        z2: T::Wide,
-        length2: T,
-        root_of_power: impl Fn(T::Wide, T::Wide) -> T,
-    ) -> T {
+    fn ratio(&self, q: T::Wide, z2: T::Wide) -> (T::Wide, [T::Wide; 2]) {
         let alpha = self.alpha.widen();
         let alpha2 = alpha * alpha;
         let sum = q + z2;
+        (sum, [q + alpha2 * z2, alpha2 * sum])
+    }
+
+    /// `scale` `length2`² π c (z² + q)^{γ−2}/(q + α²z²)^γ, with z² + q and the [`ratio`](Self::ratio) to the power −γ/2.
+    #[inline(always)]
+    fn homogeneous(&self, scale: T, length2: T, sum: T::Wide, root_of_power: T) -> T {
         // The root of the power: at α = 1e-6 and γ = 4 the power itself underflows in f32 where D does not.
-        let root = length2 / T::narrow(sum) * root_of_power(q + alpha2 * z2, alpha2 * sum);
+        let root = length2 / T::narrow(sum) * root_of_power;
         // The scale of a narrow map first: root² alone may overflow where D does not.
         (scale * self.peak) * root * root
     }
