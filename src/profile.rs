@@ -70,6 +70,10 @@ pub trait SampleProfile<T: Real>: Profile<T> {
 
 /// A profile whose visible normals can be drawn.
 pub trait SampleVisibleProfile<T: Real>: Profile<T> {
+    /// Whether a sample is straight-line code: a batch compiles what is not for the build's own vectors alone.
+    #[doc(hidden)]
+    const STRAIGHT_LINE: bool = true;
+
     /// A normal of the profile itself (map I), of any length, visible from `v`, a vector of any length.
     fn sample_visible(&self, v: [T; 3], u: [T; 2]) -> [T; 3];
 }

@@ -1,7 +1,7 @@
 //! One material for all elements, or one for each.
 
 use crate::batch::blocks::{Body, Maker, Sink, Source, check, each};
-use crate::batch::dispatch::{Kernel, run};
+use crate::batch::dispatch::{self, Kernel};
 use crate::bsdf::RoughConductor;
 use crate::ndf::Ndf;
 
@@ -69,7 +69,7 @@ impl<M: Material> Materials for M {
         O: Sink,
     {
         check((), input, &output);
-        run(Same { material: self, body, input, output });
+        run::<B, _, _>(Same { material: self, body, input, output });
     }
 }
 
@@ -97,7 +97,13 @@ where
     O: Sink,
 {
     check(numbers, input, &output);
-    run(Various { numbers, maker, body, input, output });
+    run::<B, _, _>(Various { numbers, maker, body, input, output });
+}
+
+/// At the level in use, where there are vectors to be had.
+#[inline(always)]
+fn run<B: Body<M, I>, M, I>(kernel: impl Kernel) {
+    if B::STRAIGHT_LINE { dispatch::run(kernel) } else { kernel.run() }
 }
 
 /// An element's own material, as it is.
@@ -142,6 +148,9 @@ impl<M: Material, B: Body<M, I::Item, Out = O::Item>, I: Source, O: Sink> Kernel
     #[inline(always)]
     fn run(self) {
         let material = *self.material;
+        if !B::STRAIGHT_LINE {
+            return self.all(material);
+        }
         match material.form() {
             0 => self.all(material.with_form(0)),
             1 => self.all(material.with_form(1)),

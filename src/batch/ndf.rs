@@ -32,15 +32,22 @@ body!(Normal: SampleNdf; [N::Scalar; 2] => (N::Scalar, N::Scalar, N::Scalar), |s
     let m: [N::Scalar; 3] = surface.sample_d(u.into()).into();
     m.into()
 });
-body!(VisibleNormal: SampleVndf; ([N::Scalar; 3], [N::Scalar; 2]) => (N::Scalar, N::Scalar, N::Scalar), |surface, (w, u)| {
-    let m: [N::Scalar; 3] = surface.sample_vndf(w.into(), u.into()).into();
-    m.into()
-});
+
+struct VisibleNormal;
+impl<N: SampleVndf> Body<N, ([N::Scalar; 3], [N::Scalar; 2])> for VisibleNormal {
+    const STRAIGHT_LINE: bool = N::STRAIGHT_LINE;
+    type Out = (N::Scalar, N::Scalar, N::Scalar);
+    #[inline(always)]
+    fn of(&self, surface: &N, (w, u): ([N::Scalar; 3], [N::Scalar; 2])) -> Self::Out {
+        let m: [N::Scalar; 3] = surface.sample_vndf(w.into(), u.into()).into();
+        m.into()
+    }
+}
 
 /// [`Ndf`] and its sampling over many directions: on a distribution, or on a slice with one for each element.
 ///
 /// Domains and special cases are those of the method without `_batch`, element by element; a batch of visible normals is
-/// vector code for GGX and Beckmann, one of a GTR mixture is a scalar loop.
+/// vector code for GGX and Beckmann; of a GTR mixture it is a scalar loop, no faster than the calls.
 ///
 /// # Panics
 /// Every method where slices, that of distributions included, differ in length; nothing has been written then.

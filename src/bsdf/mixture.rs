@@ -120,6 +120,8 @@ impl<S, T: Real> UniformMixture<S, T> {
 }
 
 impl<N: Ndf, S: NormalSampling<N>> NormalSampling<N> for UniformMixture<S, N::Scalar> {
+    const STRAIGHT_LINE: bool = S::STRAIGHT_LINE;
+
     /// A normal of `S`, or the one halfway between `wo` and a uniform direction.
     ///
     /// u.x < 1 − p chooses the normals, for which u.x/(1 − p) is below 1 after rounding too; else (1 − u.x)/p ∈ (0, 1]

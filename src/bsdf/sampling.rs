@@ -8,6 +8,10 @@ use crate::ndf::{Ndf, SampleNdf, SampleVndf, Vec2, Vec3};
 /// The density of the reflected directions is p(wi) = D(wm) `density_over_d` + `constant_density`, 1/sr. A strategy
 /// without the constant has a weight that contains no D.
 pub trait NormalSampling<N: Ndf> {
+    /// Whether a sample is straight-line code: a batch compiles what is not for the build's own vectors alone.
+    #[doc(hidden)]
+    const STRAIGHT_LINE: bool = true;
+
     /// A unit normal for the direction `wo`, from u ∈ [0, 1)².
     fn sample(&self, surface: &N, wo: Vec3<N>, u: Vec2<N>) -> Vec3<N>;
 
@@ -40,6 +44,8 @@ pub struct VisibleNormals;
 pub struct AllNormals;
 
 impl<N: SampleVndf> NormalSampling<N> for VisibleNormals {
+    const STRAIGHT_LINE: bool = N::STRAIGHT_LINE;
+
     #[inline(always)]
     fn sample(&self, surface: &N, wo: Vec3<N>, u: Vec2<N>) -> Vec3<N> {
         surface.sample_vndf(wo, u)

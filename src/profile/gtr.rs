@@ -199,6 +199,9 @@ pub trait VisibleMasking<T: Real>: Masking<T> {
 }
 
 impl<T: Real, K: VisibleMasking<T>> SampleVisibleProfile<T> for Gtr<T, K> {
+    /// A component is chosen first.
+    const STRAIGHT_LINE: bool = false;
+
     #[inline(always)]
     fn sample_visible(&self, v: [T; 3], u: [T; 2]) -> [T; 3] {
         self.masking.sample_visible(self.density.alpha, self.density.gamma, v, u)

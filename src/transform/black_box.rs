@@ -193,6 +193,8 @@ impl<N: SampleNdf> SampleNdf for Transformed<N> {
 }
 
 impl<N: SampleVndf> SampleVndf for Transformed<N> {
+    const STRAIGHT_LINE: bool = N::STRAIGHT_LINE;
+
     #[inline(always)]
     fn sample_vndf(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self> {
         let m = self.ndf.sample_vndf(self.pulled_direction(w).0, u);
