@@ -169,7 +169,10 @@ impl<P: SampleProfile<M::Scalar>, M: Map> SampleNdf for Microsurface<P, M> {
 }
 
 impl<P: SampleVisibleProfile<M::Scalar>, M: Map> SampleVndf for Microsurface<P, M> {
-    const STRAIGHT_LINE: bool = P::STRAIGHT_LINE;
+    #[inline(always)]
+    fn straight_line() -> bool {
+        P::STRAIGHT_LINE
+    }
 
     #[inline(always)]
     fn sample_vndf(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self> {

@@ -235,7 +235,14 @@ pub trait SampleNdf: Ndf {
 pub trait SampleVndf: Ndf {
     /// Whether a sample is straight-line code: a batch compiles what is not for the build's own vectors alone.
     #[doc(hidden)]
-    const STRAIGHT_LINE: bool = true;
+    #[inline(always)]
+    #[must_use]
+    fn straight_line() -> bool
+    where
+        Self: Sized,
+    {
+        true
+    }
 
     /// A micronormal visible from `w`, of density [`vndf(w, ·)`](Ndf::vndf), from two random numbers.
     ///
@@ -304,7 +311,6 @@ impl<N: SampleNdf + ?Sized> SampleNdf for &N {
 }
 
 impl<N: SampleVndf + ?Sized> SampleVndf for &N {
-    const STRAIGHT_LINE: bool = N::STRAIGHT_LINE;
     #[inline(always)]
     fn sample_vndf(&self, w: Vec3<N>, u: Vec2<N>) -> Vec3<N> {
         (**self).sample_vndf(w, u)

@@ -15,7 +15,10 @@ const BLOCK: usize = 64;
 /// What a batch computes of each element.
 pub trait Body<M, I> {
     /// Whether a loop over it can be vector code.
-    const STRAIGHT_LINE: bool = true;
+    #[inline(always)]
+    fn straight_line() -> bool {
+        true
+    }
     type Out;
     fn of(&self, material: &M, input: I) -> Self::Out;
 }

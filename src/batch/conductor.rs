@@ -12,7 +12,7 @@ type Sampled<T, S> = ((T, T, T), S, T);
 /// A BSDF of reflection by its scalar methods, as batches see it. Sealed: [`RoughConductor`].
 pub trait Reflection: Material {
     /// See [`NormalSampling`].
-    const STRAIGHT_LINE_SAMPLES: bool;
+    fn straight_line_samples() -> bool;
     type Scalar: crate::Real;
     type Spectrum: Spectrum<Scalar = Self::Scalar>;
     fn eval_of(&self, wi: [Self::Scalar; 3], wo: [Self::Scalar; 3]) -> Self::Spectrum;
@@ -28,9 +28,12 @@ where
     F::Output: Spectrum<Scalar = N::Scalar>,
     S: NormalSampling<N> + Copy,
 {
-    const STRAIGHT_LINE_SAMPLES: bool = S::STRAIGHT_LINE;
     type Scalar = N::Scalar;
     type Spectrum = F::Output;
+    #[inline(always)]
+    fn straight_line_samples() -> bool {
+        S::straight_line()
+    }
     #[inline(always)]
     fn eval_of(&self, wi: [N::Scalar; 3], wo: [N::Scalar; 3]) -> F::Output {
         self.eval(wi.into(), wo.into())
@@ -80,8 +83,11 @@ impl<R: Reflection> Body<R, (Vec3<R>, Vec3<R>)> for EvalAndPdf {
 }
 
 impl<R: Reflection> Body<R, (Vec3<R>, Vec2<R>)> for Sample {
-    const STRAIGHT_LINE: bool = R::STRAIGHT_LINE_SAMPLES;
     type Out = Sampled<R::Scalar, R::Spectrum>;
+    #[inline(always)]
+    fn straight_line() -> bool {
+        R::straight_line_samples()
+    }
     #[inline(always)]
     fn of(&self, brdf: &R, (wo, u): (Vec3<R>, Vec2<R>)) -> Self::Out {
         brdf.sample_of(wo, u)

@@ -103,7 +103,7 @@ where
 /// At the level in use, where there are vectors to be had.
 #[inline(always)]
 fn run<B: Body<M, I>, M, I>(kernel: impl Kernel) {
-    if B::STRAIGHT_LINE { dispatch::run(kernel) } else { kernel.run() }
+    if B::straight_line() { dispatch::run(kernel) } else { kernel.run() }
 }
 
 /// An element's own material, as it is.
@@ -148,7 +148,7 @@ impl<M: Material, B: Body<M, I::Item, Out = O::Item>, I: Source, O: Sink> Kernel
     #[inline(always)]
     fn run(self) {
         let material = *self.material;
-        if !B::STRAIGHT_LINE {
+        if !B::straight_line() {
             return self.all(material);
         }
         match material.form() {

@@ -35,8 +35,11 @@ body!(Normal: SampleNdf; [N::Scalar; 2] => (N::Scalar, N::Scalar, N::Scalar), |s
 
 struct VisibleNormal;
 impl<N: SampleVndf> Body<N, ([N::Scalar; 3], [N::Scalar; 2])> for VisibleNormal {
-    const STRAIGHT_LINE: bool = N::STRAIGHT_LINE;
     type Out = (N::Scalar, N::Scalar, N::Scalar);
+    #[inline(always)]
+    fn straight_line() -> bool {
+        N::straight_line()
+    }
     #[inline(always)]
     fn of(&self, surface: &N, (w, u): ([N::Scalar; 3], [N::Scalar; 2])) -> Self::Out {
         let m: [N::Scalar; 3] = surface.sample_vndf(w.into(), u.into()).into();

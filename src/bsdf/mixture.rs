@@ -120,7 +120,10 @@ impl<S, T: Real> UniformMixture<S, T> {
 }
 
 impl<N: Ndf, S: NormalSampling<N>> NormalSampling<N> for UniformMixture<S, N::Scalar> {
-    const STRAIGHT_LINE: bool = S::STRAIGHT_LINE;
+    #[inline(always)]
+    fn straight_line() -> bool {
+        S::straight_line()
+    }
 
     /// A normal of `S`, or the one halfway between `wo` and a uniform direction.
     ///

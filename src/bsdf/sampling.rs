@@ -10,7 +10,14 @@ use crate::ndf::{Ndf, SampleNdf, SampleVndf, Vec2, Vec3};
 pub trait NormalSampling<N: Ndf> {
     /// Whether a sample is straight-line code: a batch compiles what is not for the build's own vectors alone.
     #[doc(hidden)]
-    const STRAIGHT_LINE: bool = true;
+    #[inline(always)]
+    #[must_use]
+    fn straight_line() -> bool
+    where
+        Self: Sized,
+    {
+        true
+    }
 
     /// A unit normal for the direction `wo`, from u ∈ [0, 1)².
     fn sample(&self, surface: &N, wo: Vec3<N>, u: Vec2<N>) -> Vec3<N>;
@@ -44,7 +51,10 @@ pub struct VisibleNormals;
 pub struct AllNormals;
 
 impl<N: SampleVndf> NormalSampling<N> for VisibleNormals {
-    const STRAIGHT_LINE: bool = N::STRAIGHT_LINE;
+    #[inline(always)]
+    fn straight_line() -> bool {
+        N::straight_line()
+    }
 
     #[inline(always)]
     fn sample(&self, surface: &N, wo: Vec3<N>, u: Vec2<N>) -> Vec3<N> {

@@ -193,7 +193,10 @@ impl<N: SampleNdf> SampleNdf for Transformed<N> {
 }
 
 impl<N: SampleVndf> SampleVndf for Transformed<N> {
-    const STRAIGHT_LINE: bool = N::STRAIGHT_LINE;
+    #[inline(always)]
+    fn straight_line() -> bool {
+        N::straight_line()
+    }
 
     #[inline(always)]
     fn sample_vndf(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self> {
