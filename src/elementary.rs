@@ -33,6 +33,7 @@ mod trig;
 pub use erf::{erf, erfc};
 pub(crate) use erf_inv::erfc_inv_wide;
 pub use erf_inv::{erf_inv, erfc_inv};
+pub(crate) use erfcx::ierfcx_near;
 pub use erfcx::{erfcx, ierfcx};
 pub use exp::{exp, exp_m1, exp_neg_square, exp_wide};
 pub(crate) use exp::{exp_normal, exp_normal_wide};

@@ -42,9 +42,15 @@ fn print(out: &mut impl Write, table: &Table, counts: &[Vec<f64>]) -> io::Result
     match table.claim {
         Claim::Nothing => Ok(()),
         Claim::Rising => {
-            let falls = |counts: &[f64]| counts.windows(2).any(|pair| pair[0] > pair[1]);
-            let exceptions: Vec<&str> =
-                rows().filter(|(_, counts)| falls(counts)).map(|(row, _)| row.name.as_str()).collect();
+            // By how many instructions a column is above the one to its right.
+            let excess = |counts: &[f64]| {
+                counts.windows(2).map(|pair| pair[0] - pair[1]).fold(0.0, |a: f64, b| a.max(b))
+            };
+            let exceptions: Vec<String> = rows()
+                .map(|(row, counts)| (&row.name, excess(counts).round()))
+                .filter(|&(_, excess)| excess > 0.0)
+                .map(|(name, excess)| format!("{name} by {excess}"))
+                .collect();
             let claim = table.columns.join(" ≤ ");
             if exceptions.is_empty() {
                 writeln!(out, "{claim} in every row.\n")

@@ -47,6 +47,12 @@ pub fn erfcx<T: Real>(x: T) -> T {
     if x < T::ZERO { T::TWO * exp_of_sum(high, low) - y } else { y }
 }
 
+/// [`ierfcx`] where neither its asymptote nor its sign is asked for, 0 ≤ x ≤ `T::FAR`.
+#[inline(always)]
+pub(crate) fn ierfcx_near<T: Real>(x: T) -> T {
+    polynomial(x, T::IERFCX[0]) / polynomial(x, T::IERFCX[1])
+}
+
 /// The scaled integral of the complementary error function, e^(x²)·∫ₓ^∞ erfc(t)dt = 1/√π − x·erfcx x.
 ///
 /// Beckmann's masking is made of it: Λ(a) = e^(−a²)·ierfcx(a)/(2a). The difference on the right cancels (at x = 100

@@ -4,7 +4,7 @@ pub(crate) mod visible;
 
 use crate::Real;
 use crate::elementary::{
-    erfc_inv_wide, exp_normal, exp_normal_wide, exp_wide, ierfcx, ln_1p, sin_cos_of_turn,
+    erfc_inv_wide, exp_normal, exp_normal_wide, exp_wide, ierfcx, ierfcx_near, ln_1p, sin_cos_of_turn,
 };
 use crate::map::Map;
 use crate::microsurface::Microsurface;
@@ -97,7 +97,7 @@ fn backfacing<T: Real>(s2: T, z: T) -> (T, bool) {
     let (nu, last) = (z / s, T::lit(if T::WIDENS { 8.0 } else { 26.0 }));
     let vanished = nu > last;
     let nu = if vanished { last } else { nu };
-    (T::HALF * s * exp_normal(-(nu * nu)) * ierfcx(nu), vanished)
+    (T::HALF * s * exp_normal(-(nu * nu)) * ierfcx_near(nu), vanished)
 }
 
 impl<T: Real> SampleProfile<T> for Beckmann {

@@ -1,5 +1,5 @@
 //! All 2³² f32 numbers of every function of one argument against the same function in f64, as batches:
-//! `cargo test --release --test it every_f32 -- --ignored --nocapture`, about ten minutes on two cores.
+//! `cargo test --release --test it every_f32 -- --ignored --nocapture`, about seven minutes on two cores.
 
 use core::sync::atomic::{AtomicU32, Ordering};
 use std::thread;
@@ -137,7 +137,7 @@ fn every_function_of_one_argument_is_walked() {
 }
 
 #[test]
-#[ignore = "all f32 numbers: ten minutes"]
+#[ignore = "all f32 numbers: seven minutes"]
 fn every_f32() {
     let mut failures = Vec::new();
     for &(name, values) in VALUES {
