@@ -177,7 +177,8 @@ impl<P: SampleVisibleProfile<M::Scalar>, M: Map> SampleVndf for Microsurface<P, 
     #[inline(always)]
     fn sample_vndf(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self> {
         let w: [M::Scalar; 3] = w.into();
-        let m = self.profile.sample_visible(self.map.pull_direction(w), u.into());
+        let (v, s2) = (self.map.pull_direction(w), self.map.direction_term(w));
+        let m = self.profile.sample_visible(v, s2, u.into());
         turned_into_view(w, self.map.push_normal(m)).into()
     }
 }

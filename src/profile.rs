@@ -75,7 +75,10 @@ pub trait SampleVisibleProfile<T: Real>: Profile<T> {
     const STRAIGHT_LINE: bool = true;
 
     /// A normal of the profile itself (map I), of any length, visible from `v`, a vector of any length.
-    fn sample_visible(&self, v: [T; 3], u: [T; 2]) -> [T; 3];
+    ///
+    /// `s2` is v.x² + v.y² to rounding, the very number that [`sigma_above`](Profile::sigma_above) gets: whoever computes
+    /// both takes one root.
+    fn sample_visible(&self, v: [T; 3], s2: T, u: [T; 2]) -> [T; 3];
 }
 
 /// The constructors of a profile without parameters of its own, whose width is the map's.

@@ -74,11 +74,9 @@ impl<T: Real> Map for Isotropic<T> {
         (x * x + y * y, (alpha * alpha) * (z * z))
     }
 
-    /// Term by term the square of [`pull_direction`](Map::pull_direction), so that a sample shares its root with σ.
     #[inline(always)]
     fn direction_term(&self, [x, y, _]: [T; 3]) -> T {
-        let (a, b) = (self.alpha * x, self.alpha * y);
-        a * a + b * b
+        self.alpha2 * (x * x + y * y)
     }
 
     #[inline(always)]

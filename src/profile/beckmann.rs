@@ -116,8 +116,7 @@ impl<T: Real> SampleVisibleProfile<T> for Beckmann {
     ///
     /// Heitz and d'Eon 2014, §4.1, with an inversion of our own, derived in the source beside this file.
     #[inline(always)]
-    fn sample_visible(&self, v: [T; 3], [u1, u2]: [T; 2]) -> [T; 3] {
-        let s2 = v[0] * v[0] + v[1] * v[1];
+    fn sample_visible(&self, v: [T; 3], s2: T, [u1, u2]: [T; 2]) -> [T; 3] {
         let s = s2.sqrt();
         let [along_x, along_y] = if s > T::ZERO { [v[0] / s, v[1] / s] } else { [T::ONE, T::ZERO] };
         let along = T::narrow(visible::visible_slope::<T>(v[2].widen() / s.widen(), u1));
@@ -174,7 +173,7 @@ mod tests {
 
     /// The slope across the view, from the u.y with these bits.
     fn across(bits: u32) -> f32 {
-        let [_, y, _] = Beckmann.sample_visible([1.0_f32, 0.0, 0.5], [0.5, f32::from_bits(bits)]);
+        let [_, y, _] = Beckmann.sample_visible([1.0_f32, 0.0, 0.5], 1.0, [0.5, f32::from_bits(bits)]);
         -y
     }
 

@@ -75,10 +75,9 @@ impl<T: Real> SampleVisibleProfile<T> for Ggx {
     /// Written for |v| (c + v), nothing is divided and nothing cancels: with ℓ = |v| and p = ℓ + v.z, its height is
     /// (1 − u.y) p and the radius of ℓ c is √(u.y ((1 − u.y) p² + v.x² + v.y²)).
     #[inline(always)]
-    fn sample_visible(&self, [x, y, z]: [T; 3], [u1, u2]: [T; 2]) -> [T; 3] {
-        let s2 = x * x + y * y;
+    fn sample_visible(&self, [x, y, z]: [T; 3], s2: T, [u1, u2]: [T; 2]) -> [T; 3] {
         // From below p = s²/(ℓ − v.z).
-        let larger = (s2 + z * z).sqrt() + z.abs();
+        let larger = (z * z + s2).sqrt() + z.abs();
         let p = if z < T::ZERO { s2 / larger } else { larger };
         let height = (T::ONE - u2) * p;
         let radius = (u2 * (p * height + s2)).sqrt();

@@ -203,7 +203,7 @@ impl<T: Real, K: VisibleMasking<T>> SampleVisibleProfile<T> for Gtr<T, K> {
     const STRAIGHT_LINE: bool = false;
 
     #[inline(always)]
-    fn sample_visible(&self, v: [T; 3], u: [T; 2]) -> [T; 3] {
+    fn sample_visible(&self, v: [T; 3], _: T, u: [T; 2]) -> [T; 3] {
         self.masking.sample_visible(self.density.alpha, self.density.gamma, v, u)
     }
 }

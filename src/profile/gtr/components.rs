@@ -109,11 +109,11 @@ impl<T: Real> Components<T> {
         let root = t.sqrt();
         let stretched = [root * v[0], root * v[1], v[2]];
         let [x, y, z] = if self.degree == 0 {
-            Ggx.sample_visible(stretched, [u1, u2])
+            Ggx.sample_visible(stretched, t * s2, [u1, u2])
         } else {
             let (k, u2) = choose_exponent(self.degree, t, s2, v[2], u2);
             if k == 0 {
-                Ggx.sample_visible(stretched, [u1, u2])
+                Ggx.sample_visible(stretched, t * s2, [u1, u2])
             } else {
                 visible::sample_visible(k, stretched, [u1, u2])
             }
