@@ -33,7 +33,7 @@ pub(super) trait Maker<I> {
 /// What a batch reads of each element. Sealed: slices, [`Directions`], [`Numbers`],
 /// [`Footprints`](crate::batch::Footprints), the numbers of a [`Varied`](crate::batch::Varied) material, and pairs and
 /// triples of them.
-pub trait Source: Copy {
+pub trait Source: Copy + sealed::Source {
     /// A slice's element, an array of components, or a tuple of such.
     type Item;
     /// A block of its own, for a last one that is not full.
@@ -58,7 +58,7 @@ pub trait Source: Copy {
 }
 
 /// What a batch writes of each element. Sealed: slices, [`DirectionsMut`], [`Samples`], and pairs of slices.
-pub trait Sink {
+pub trait Sink: sealed::Sink {
     /// A slice's element, or a tuple of components.
     type Item;
     #[doc(hidden)]
@@ -76,6 +76,11 @@ pub trait Sink {
     /// Writes the block from `start` on, as far as there is room.
     #[doc(hidden)]
     fn write(&mut self, start: usize, block: &Self::Block);
+}
+
+pub(super) mod sealed {
+    pub trait Source {}
+    pub trait Sink {}
 }
 
 /// `body` of every element.
@@ -125,6 +130,8 @@ fn unless(len: usize, expected: usize) -> Option<usize> {
     if len == expected { None } else { Some(len) }
 }
 
+impl<S: Copy> sealed::Source for &[S] {}
+
 impl<'a, S: Copy> Source for &'a [S] {
     type Item = S;
     type Pad = Option<[S; BLOCK]>;
@@ -159,6 +166,8 @@ impl<'a, S: Copy> Source for &'a [S] {
     }
 }
 
+impl<S: Copy> sealed::Sink for &mut [S] {}
+
 impl<S: Copy> Sink for &mut [S] {
     type Item = S;
     type Block = [S; BLOCK];
@@ -188,6 +197,8 @@ impl<S: Copy> Sink for &mut [S] {
     }
 }
 
+impl sealed::Source for () {}
+
 /// Nothing that differs between elements.
 impl Source for () {
     type Item = ();
@@ -216,6 +227,8 @@ macro_rules! composed {
     (
         source [$($generics:tt)*] $source:ty, $item:ty = ($($field:tt: $part:ty => $index:tt),*), |$parts:ident| $make:expr
     ) => {
+        impl<$($generics)*> crate::batch::blocks::sealed::Source for $source {}
+
         impl<$($generics)*> Source for $source {
             type Item = $item;
             type Pad = ($(<$part as Source>::Pad,)*);
@@ -242,6 +255,8 @@ macro_rules! composed {
         }
     };
     (sink [$($generics:tt)*] $sink:ty, $item:ty = ($first:tt, $($field:tt: $part:ty => $index:tt),*)) => {
+        impl<$($generics)*> crate::batch::blocks::sealed::Sink for $sink {}
+
         impl<$($generics)*> Sink for $sink {
             type Item = $item;
             type Block = ($(<$part as Sink>::Block,)*);

@@ -58,7 +58,7 @@ impl<'a, B: Base, V: Variation<B::Surface>> Varied<'a, B, V> {
 }
 
 /// What can be varied: a microsurface, or a BSDF on one. Sealed: [`Microsurface`], [`RoughConductor`].
-pub trait Base: Copy {
+pub trait Base: Copy + sealed::Base {
     #[doc(hidden)]
     type Surface;
     #[doc(hidden)]
@@ -67,6 +67,12 @@ pub trait Base: Copy {
     fn base_surface(&self) -> &Self::Surface;
     #[doc(hidden)]
     fn on<N>(self, surface: N) -> Self::On<N>;
+}
+
+mod sealed {
+    pub trait Base {}
+    impl<P, M> Base for crate::Microsurface<P, M> {}
+    impl<N, F, S> Base for crate::bsdf::RoughConductor<N, F, S> {}
 }
 
 impl<P: Copy, M: Copy> Base for Microsurface<P, M> {
