@@ -24,6 +24,10 @@
 //! **3. Is it needed?** [`Microsurface::change_by_filter`](crate::Microsurface::change_by_filter) and
 //! [`change_by_filter_at`](crate::Microsurface::change_by_filter_at) bound what is lost without.
 //!
+//! Many pixels at once, as structures of arrays: [`batch::Varied`](crate::batch::Varied) by
+//! [`Filtered`](crate::batch::Filtered) or [`FilteredProjected`](crate::batch::FilteredProjected), and
+//! [`batch::map`](crate::batch::map()) for all others.
+//!
 //! # Example
 //! One pixel, from the camera's ray to radiance: a ball of polished metal, lit by a point.
 //! ```

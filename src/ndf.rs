@@ -79,7 +79,7 @@ pub trait Ndf {
     /// σ(w) for w on or above the horizon, without what only the lower half needs.
     ///
     /// # Domain
-    /// w.z ≥ 0; elsewhere finite and meaningless.
+    /// w.z ≥ 0; elsewhere meaningless, and perhaps no number.
     #[inline(always)]
     fn sigma_above(&self, w: Vec3<Self>) -> Self::Scalar {
         self.sigma(w)

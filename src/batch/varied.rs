@@ -28,7 +28,7 @@ use crate::roughness::{RoughnessMatrix, alpha_range};
 /// Beckmann; of GTR take a slice of surfaces.
 ///
 /// # Example
-/// A texture of α, and the same with the footprint of each pixel.
+/// A texture of α; [`Filtered`](crate::batch::Filtered) has an example with footprints.
 /// ```
 /// use microsurface::batch::{Alphas, Directions, ReflectionBatch, Varied};
 /// use microsurface::{Ggx, bsdf::RoughConductor, fresnel::Schlick, glam::Vec3};
