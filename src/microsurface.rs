@@ -3,7 +3,7 @@
 use crate::Real;
 use crate::error::Error;
 use crate::map::{Linear, Map, moved};
-use crate::ndf::{Ndf, SampleNdf, SampleVndf, Vec2, Vec3};
+use crate::ndf::{Course, Ndf, SampleNdf, SampleVndf, Slopes, Vec2, Vec3};
 use crate::profile::{Profile, SampleProfile, SampleVisibleProfile};
 use crate::vector::{dot, normalized, positive_part};
 
@@ -170,8 +170,8 @@ impl<P: SampleProfile<M::Scalar>, M: Map> SampleNdf for Microsurface<P, M> {
 
 impl<P: SampleVisibleProfile<M::Scalar>, M: Map> SampleVndf for Microsurface<P, M> {
     #[inline(always)]
-    fn straight_line() -> bool {
-        P::STRAIGHT_LINE
+    fn course() -> Course {
+        P::COURSE
     }
 
     #[inline(always)]
@@ -180,6 +180,20 @@ impl<P: SampleVisibleProfile<M::Scalar>, M: Map> SampleVndf for Microsurface<P, 
         let (v, s2) = (self.map.pull_direction(w), self.map.direction_term(w));
         let m = self.profile.sample_visible(v, s2, u.into());
         turned_into_view(w, self.map.push_normal(m)).into()
+    }
+
+    #[inline(always)]
+    fn usual_vndf_sample(
+        &self,
+        w: Vec3<Self>,
+        u: Vec2<Self>,
+        slopes: Slopes<'_, M::Scalar>,
+    ) -> (Vec3<Self>, bool) {
+        let w: [M::Scalar; 3] = w.into();
+        let (v, s2) = (self.map.pull_direction(w), self.map.direction_term(w));
+        let (m, usual) = self.profile.usual_visible_sample(v, s2, u.into(), slopes);
+        let (m, in_view) = normalized_in_view(w, self.map.push_normal(m));
+        (m.into(), usual && in_view)
     }
 }
 
@@ -190,11 +204,8 @@ impl<P: SampleVisibleProfile<M::Scalar>, M: Map> SampleVndf for Microsurface<P, 
 /// tells.
 #[inline(always)]
 pub(crate) fn turned_into_view<T: Real>(w: [T; 3], m: [T; 3]) -> [T; 3] {
-    let (w_m, length2) = (dot(w, m), dot(m, m));
-    // 16ε|m| bounds the rounding of w·m, here and once more by whoever uses the sample: 3ε Σ|terms| ≤ 3√3 ε|m| each.
-    // Squares that are no normal numbers tell nothing.
-    let edge = T::lit(256.0) * T::EPSILON * T::EPSILON * length2 + T::MIN_POSITIVE;
-    let (m, length2) = if w_m * w_m.abs() > edge {
+    let length2 = dot(m, m);
+    let (m, length2) = if in_view(w, m, length2) {
         (m, length2)
     } else {
         let m = turned_from_the_edge(w, m);
@@ -202,6 +213,24 @@ pub(crate) fn turned_into_view<T: Real>(w: [T; 3], m: [T; 3]) -> [T; 3] {
     };
     let inv_length = T::ONE / length2.sqrt();
     m.map(|c| c * inv_length)
+}
+
+/// The direction of m, of any length, and whether it is surely in view of w: if not, see [`turned_into_view`].
+#[inline(always)]
+pub(crate) fn normalized_in_view<T: Real>(w: [T; 3], m: [T; 3]) -> ([T; 3], bool) {
+    let length2 = dot(m, m);
+    let inv_length = T::ONE / length2.sqrt();
+    (m.map(|c| c * inv_length), in_view(w, m, length2))
+}
+
+/// Whether m, of this square, is in view of w beyond doubt.
+#[inline(always)]
+fn in_view<T: Real>(w: [T; 3], m: [T; 3], length2: T) -> bool {
+    let w_m = dot(w, m);
+    // 16ε|m| bounds the rounding of w·m, here and once more by whoever uses the sample: 3ε Σ|terms| ≤ 3√3 ε|m| each.
+    // Squares that are no normal numbers tell nothing.
+    let edge = T::lit(256.0) * T::EPSILON * T::EPSILON * length2 + T::MIN_POSITIVE;
+    w_m * w_m.abs() > edge
 }
 
 /// The same for a facet near the edge of visibility, whose m may be the difference of two equal vectors.

@@ -231,17 +231,43 @@ pub trait SampleNdf: Ndf {
     }
 }
 
+/// How a batch goes about samples.
+#[doc(hidden)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Course {
+    /// They have branches: they are compiled for the build's own vectors alone.
+    Branching,
+    /// Straight-line code.
+    Straight,
+    /// Straight-line code in which slopes are found that take longer than all else: see [`Slopes`].
+    Solving,
+    /// The same to 1e-6 of u.
+    SolvingTo1e6,
+}
+
+/// Where a visible Beckmann normal has its slopes from: a batch finds those of a whole block together.
+#[doc(hidden)]
+#[derive(Debug)]
+pub enum Slopes<'a, T: Real> {
+    /// From their equations, at once.
+    Solved,
+    /// From nowhere yet: all that counts is what they would be solved from, ν and u.
+    Asked(&'a mut (T::Wide, [T; 2])),
+    /// They were found before, along the view and across.
+    Found([T; 2]),
+}
+
 /// Sampling of the normals visible from a direction; the density is [`Ndf::vndf`].
 pub trait SampleVndf: Ndf {
-    /// Whether a sample is straight-line code: a batch compiles what is not for the build's own vectors alone.
+    /// How a batch goes about it.
     #[doc(hidden)]
     #[inline(always)]
     #[must_use]
-    fn straight_line() -> bool
+    fn course() -> Course
     where
         Self: Sized,
     {
-        true
+        Course::Straight
     }
 
     /// A micronormal visible from `w`, of density [`vndf(w, ·)`](Ndf::vndf), from two random numbers.
@@ -252,6 +278,19 @@ pub trait SampleVndf: Ndf {
     /// # Returns
     /// A unit vector with z ≥ 0 and w·wm > 0.
     fn sample_vndf(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self>;
+
+    /// The sample without what hardly any needs, and whether it is the one of [`sample_vndf`](Self::sample_vndf): a
+    /// batch draws a block anew where one is not.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn usual_vndf_sample(
+        &self,
+        w: Vec3<Self>,
+        u: Vec2<Self>,
+        _slopes: Slopes<'_, Self::Scalar>,
+    ) -> (Vec3<Self>, bool) {
+        (self.sample_vndf(w, u), true)
+    }
 }
 
 /// A borrowed distribution is one: for materials that share a large one, and for batches of one that is not `Copy`.
@@ -314,5 +353,9 @@ impl<N: SampleVndf + ?Sized> SampleVndf for &N {
     #[inline(always)]
     fn sample_vndf(&self, w: Vec3<N>, u: Vec2<N>) -> Vec3<N> {
         (**self).sample_vndf(w, u)
+    }
+    #[inline(always)]
+    fn usual_vndf_sample(&self, w: Vec3<N>, u: Vec2<N>, slopes: Slopes<'_, N::Scalar>) -> (Vec3<N>, bool) {
+        (**self).usual_vndf_sample(w, u, slopes)
     }
 }

@@ -19,6 +19,7 @@ pub mod gtr;
 
 use crate::Real;
 use crate::map::Map;
+use crate::ndf::{Course, Slopes};
 
 /// An isotropic slope profile.
 ///
@@ -70,15 +71,22 @@ pub trait SampleProfile<T: Real>: Profile<T> {
 
 /// A profile whose visible normals can be drawn.
 pub trait SampleVisibleProfile<T: Real>: Profile<T> {
-    /// Whether a sample is straight-line code: a batch compiles what is not for the build's own vectors alone.
+    /// See [`SampleVndf::course`](crate::SampleVndf::course).
     #[doc(hidden)]
-    const STRAIGHT_LINE: bool = true;
+    const COURSE: Course = Course::Straight;
 
     /// A normal of the profile itself (map I), of any length, visible from `v`, a vector of any length.
     ///
     /// `s2` is v.x² + v.y² to rounding, the very number that [`sigma_above`](Profile::sigma_above) gets: whoever computes
     /// both takes one root.
     fn sample_visible(&self, v: [T; 3], s2: T, u: [T; 2]) -> [T; 3];
+
+    /// See [`SampleVndf::usual_vndf_sample`](crate::SampleVndf::usual_vndf_sample).
+    #[doc(hidden)]
+    #[inline(always)]
+    fn usual_visible_sample(&self, v: [T; 3], s2: T, u: [T; 2], _slopes: Slopes<'_, T>) -> ([T; 3], bool) {
+        (self.sample_visible(v, s2, u), true)
+    }
 }
 
 /// The constructors of a profile without parameters of its own, whose width is the map's.

@@ -1,10 +1,11 @@
 //! Reflection of many directions.
 
+use crate::Real;
 use crate::batch::blocks::Body;
 use crate::batch::{Directions, Material, Materials, Numbers, Samples};
 use crate::bsdf::{NormalSampling, RoughConductor};
 use crate::fresnel::{Fresnel, Spectrum};
-use crate::ndf::Ndf;
+use crate::ndf::{Course, Ndf, Slopes};
 
 /// A direction, a weight and a density, as [`Samples`] stores them.
 type Sampled<T, S> = ((T, T, T), S, T);
@@ -12,13 +13,19 @@ type Sampled<T, S> = ((T, T, T), S, T);
 /// A BSDF of reflection by its scalar methods, as batches see it. Sealed: [`RoughConductor`].
 pub trait Reflection: Material {
     /// See [`NormalSampling`].
-    fn straight_line_samples() -> bool;
+    fn course() -> Course;
     type Scalar: crate::Real;
     type Spectrum: Spectrum<Scalar = Self::Scalar>;
     fn eval_of(&self, wi: [Self::Scalar; 3], wo: [Self::Scalar; 3]) -> Self::Spectrum;
     fn pdf_of(&self, wi: [Self::Scalar; 3], wo: [Self::Scalar; 3]) -> Self::Scalar;
     fn sample_of(&self, wo: [Self::Scalar; 3], u: [Self::Scalar; 2])
     -> Sampled<Self::Scalar, Self::Spectrum>;
+    fn usual_sample_of(
+        &self,
+        wo: [Self::Scalar; 3],
+        u: [Self::Scalar; 2],
+        slopes: Slopes<'_, Self::Scalar>,
+    ) -> (Sampled<Self::Scalar, Self::Spectrum>, bool);
 }
 
 impl<N, F, S> Reflection for RoughConductor<N, F, S>
@@ -31,8 +38,8 @@ where
     type Scalar = N::Scalar;
     type Spectrum = F::Output;
     #[inline(always)]
-    fn straight_line_samples() -> bool {
-        S::straight_line()
+    fn course() -> Course {
+        S::course()
     }
     #[inline(always)]
     fn eval_of(&self, wi: [N::Scalar; 3], wo: [N::Scalar; 3]) -> F::Output {
@@ -44,10 +51,24 @@ where
     }
     #[inline(always)]
     fn sample_of(&self, wo: [N::Scalar; 3], u: [N::Scalar; 2]) -> Sampled<N::Scalar, F::Output> {
-        let sample = self.sample_or_nothing(wo.into(), u.into());
-        let wi: [N::Scalar; 3] = sample.wi.into();
-        (wi.into(), sample.weight, sample.pdf)
+        stored(self.sample_or_nothing(wo.into(), u.into()))
     }
+    #[inline(always)]
+    fn usual_sample_of(
+        &self,
+        wo: [N::Scalar; 3],
+        u: [N::Scalar; 2],
+        slopes: Slopes<'_, N::Scalar>,
+    ) -> (Sampled<N::Scalar, F::Output>, bool) {
+        let (sample, usual) = self.usual_sample_or_nothing(wo.into(), u.into(), slopes);
+        (stored(sample), usual)
+    }
+}
+
+#[inline(always)]
+fn stored<T: Real, S>(sample: crate::bsdf::Sample<T, S>) -> Sampled<T, S> {
+    let wi: [T; 3] = sample.wi.into();
+    (wi.into(), sample.weight, sample.pdf)
 }
 
 struct Eval;
@@ -59,6 +80,7 @@ type Vec3<R> = [<R as Reflection>::Scalar; 3];
 type Vec2<R> = [<R as Reflection>::Scalar; 2];
 
 impl<R: Reflection> Body<R, (Vec3<R>, Vec3<R>)> for Eval {
+    type Number = R::Scalar;
     type Out = R::Spectrum;
     #[inline(always)]
     fn of(&self, brdf: &R, (wi, wo): (Vec3<R>, Vec3<R>)) -> R::Spectrum {
@@ -67,6 +89,7 @@ impl<R: Reflection> Body<R, (Vec3<R>, Vec3<R>)> for Eval {
 }
 
 impl<R: Reflection> Body<R, (Vec3<R>, Vec3<R>)> for Pdf {
+    type Number = R::Scalar;
     type Out = R::Scalar;
     #[inline(always)]
     fn of(&self, brdf: &R, (wi, wo): (Vec3<R>, Vec3<R>)) -> R::Scalar {
@@ -75,6 +98,7 @@ impl<R: Reflection> Body<R, (Vec3<R>, Vec3<R>)> for Pdf {
 }
 
 impl<R: Reflection> Body<R, (Vec3<R>, Vec3<R>)> for EvalAndPdf {
+    type Number = R::Scalar;
     type Out = (R::Spectrum, R::Scalar);
     #[inline(always)]
     fn of(&self, brdf: &R, (wi, wo): (Vec3<R>, Vec3<R>)) -> Self::Out {
@@ -83,14 +107,24 @@ impl<R: Reflection> Body<R, (Vec3<R>, Vec3<R>)> for EvalAndPdf {
 }
 
 impl<R: Reflection> Body<R, (Vec3<R>, Vec2<R>)> for Sample {
+    type Number = R::Scalar;
     type Out = Sampled<R::Scalar, R::Spectrum>;
     #[inline(always)]
-    fn straight_line() -> bool {
-        R::straight_line_samples()
+    fn course() -> Course {
+        R::course()
     }
     #[inline(always)]
     fn of(&self, brdf: &R, (wo, u): (Vec3<R>, Vec2<R>)) -> Self::Out {
         brdf.sample_of(wo, u)
+    }
+    #[inline(always)]
+    fn usual(
+        &self,
+        brdf: &R,
+        (wo, u): (Vec3<R>, Vec2<R>),
+        slopes: Slopes<'_, R::Scalar>,
+    ) -> (Self::Out, bool) {
+        brdf.usual_sample_of(wo, u, slopes)
     }
 }
 

@@ -89,6 +89,7 @@ pub fn map_inlined<I: Source, O: Sink>(input: I, output: O, f: impl Function<I::
 struct Of<F>(F);
 
 impl<F: Function<I>, I> Body<(), I> for Of<F> {
+    type Number = f32;
     type Out = F::Out;
     #[inline(always)]
     fn of(&self, (): &(), input: I) -> F::Out {

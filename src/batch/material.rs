@@ -3,7 +3,7 @@
 use crate::batch::blocks::{Body, Maker, Sink, Source, check, each};
 use crate::batch::dispatch::{self, Kernel};
 use crate::bsdf::RoughConductor;
-use crate::ndf::Ndf;
+use crate::ndf::{Course, Ndf};
 
 /// A material of batches: any [`Ndf`] or [`RoughConductor`] that is `Copy`.
 pub trait Material: Copy {
@@ -103,7 +103,7 @@ where
 /// At the level in use, where there are vectors to be had.
 #[inline(always)]
 fn run<B: Body<M, I>, M, I>(kernel: impl Kernel) {
-    if B::straight_line() { dispatch::run(kernel) } else { kernel.run() }
+    if B::course() == Course::Branching { kernel.run() } else { dispatch::run(kernel) }
 }
 
 /// An element's own material, as it is.
@@ -148,7 +148,7 @@ impl<M: Material, B: Body<M, I::Item, Out = O::Item>, I: Source, O: Sink> Kernel
     #[inline(always)]
     fn run(self) {
         let material = *self.material;
-        if !B::straight_line() {
+        if B::course() == Course::Branching {
             return self.all(material);
         }
         match material.form() {

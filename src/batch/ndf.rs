@@ -2,7 +2,7 @@
 
 use crate::batch::blocks::Body;
 use crate::batch::{Directions, DirectionsMut, Materials, Numbers};
-use crate::ndf::{Ndf, SampleNdf, SampleVndf};
+use crate::ndf::{Course, Ndf, SampleNdf, SampleVndf, Slopes};
 
 /// The scalar of the distributions of a batch.
 type Scalar<B> = <<B as Materials>::Material as Ndf>::Scalar;
@@ -12,6 +12,7 @@ macro_rules! body {
     ($name:ident: $($bound:path),+; $input:ty => $out:ty, |$surface:ident, $arguments:pat_param| $body:expr) => {
         struct $name;
         impl<N: $($bound +)+> Body<N, $input> for $name {
+            type Number = N::Scalar;
             type Out = $out;
             #[inline(always)]
             fn of(&self, $surface: &N, $arguments: $input) -> Self::Out {
@@ -35,15 +36,27 @@ body!(Normal: SampleNdf; [N::Scalar; 2] => (N::Scalar, N::Scalar, N::Scalar), |s
 
 struct VisibleNormal;
 impl<N: SampleVndf> Body<N, ([N::Scalar; 3], [N::Scalar; 2])> for VisibleNormal {
+    type Number = N::Scalar;
     type Out = (N::Scalar, N::Scalar, N::Scalar);
     #[inline(always)]
-    fn straight_line() -> bool {
-        N::straight_line()
+    fn course() -> Course {
+        N::course()
     }
     #[inline(always)]
     fn of(&self, surface: &N, (w, u): ([N::Scalar; 3], [N::Scalar; 2])) -> Self::Out {
         let m: [N::Scalar; 3] = surface.sample_vndf(w.into(), u.into()).into();
         m.into()
+    }
+    #[inline(always)]
+    fn usual(
+        &self,
+        surface: &N,
+        (w, u): ([N::Scalar; 3], [N::Scalar; 2]),
+        slopes: Slopes<'_, N::Scalar>,
+    ) -> (Self::Out, bool) {
+        let (m, usual) = surface.usual_vndf_sample(w.into(), u.into(), slopes);
+        let m: [N::Scalar; 3] = m.into();
+        (m.into(), usual)
     }
 }
 

@@ -4,7 +4,7 @@ use crate::Real;
 use crate::bsdf::sampling::NormalSampling;
 use crate::elementary::sin_cos_of_turn;
 use crate::error::Error;
-use crate::ndf::{Ndf, Vec2, Vec3};
+use crate::ndf::{Course, Ndf, Slopes, Vec2, Vec3};
 use crate::roughness::checked;
 use crate::vector::normalized;
 
@@ -104,6 +104,27 @@ impl<S, T: Real> UniformMixture<S, T> {
         Self::new(other, T::lit(0.8) * (alpha * alpha))
     }
 
+    /// The numbers for a normal of the other sampling.
+    #[inline(always)]
+    fn of_other(&self, u: T::Vec2) -> T::Vec2 {
+        let [u1, u2]: [T; 2] = u.into();
+        [if u1 < self.rest { u1 / self.rest } else { u1 }, u2].into()
+    }
+
+    /// `m` of the other sampling, or the normal halfway between `wo` and a uniform direction.
+    #[inline(always)]
+    fn or_uniform(&self, wo: T::Vec3, u: T::Vec2, m: T::Vec3) -> T::Vec3 {
+        let [u1, u2]: [T; 2] = u.into();
+        let z = (T::ONE - u1) / self.uniform;
+        let radius = ((T::ONE - z) * (T::ONE + z)).sqrt();
+        let (sin, cos) = sin_cos_of_turn(u2);
+        let [x, y, height]: [T; 3] = wo.into();
+        let half = normalized([radius * cos + x, radius * sin + y, z + height]);
+        // Component by component: a chosen vector would be a branch.
+        let m: [T; 3] = m.into();
+        if u1 < self.rest { m.into() } else { half.into() }
+    }
+
     /// p, the probability of a uniform direction.
     #[inline]
     #[must_use]
@@ -121,8 +142,8 @@ impl<S, T: Real> UniformMixture<S, T> {
 
 impl<N: Ndf, S: NormalSampling<N>> NormalSampling<N> for UniformMixture<S, N::Scalar> {
     #[inline(always)]
-    fn straight_line() -> bool {
-        S::straight_line()
+    fn course() -> Course {
+        S::course()
     }
 
     /// A normal of `S`, or the one halfway between `wo` and a uniform direction.
@@ -131,16 +152,19 @@ impl<N: Ndf, S: NormalSampling<N>> NormalSampling<N> for UniformMixture<S, N::Sc
     /// is the height of a uniform direction, at least ε/2, so that the half vector does not vanish.
     #[inline(always)]
     fn sample(&self, surface: &N, wo: Vec3<N>, u: Vec2<N>) -> Vec3<N> {
-        let [u1, u2]: [N::Scalar; 2] = u.into();
-        let by_normal = u1 < self.rest;
-        let of_other = if by_normal { u1 / self.rest } else { u1 };
-        let m: [N::Scalar; 3] = self.other.sample(surface, wo, [of_other, u2].into()).into();
-        let z = (N::Scalar::ONE - u1) / self.uniform;
-        let radius = ((N::Scalar::ONE - z) * (N::Scalar::ONE + z)).sqrt();
-        let (sin, cos) = sin_cos_of_turn(u2);
-        let [x, y, height]: [N::Scalar; 3] = wo.into();
-        let half = normalized([radius * cos + x, radius * sin + y, z + height]);
-        if by_normal { m.into() } else { half.into() }
+        self.or_uniform(wo, u, self.other.sample(surface, wo, self.of_other(u)))
+    }
+
+    #[inline(always)]
+    fn usual_sample(
+        &self,
+        surface: &N,
+        wo: Vec3<N>,
+        u: Vec2<N>,
+        slopes: Slopes<'_, N::Scalar>,
+    ) -> (Vec3<N>, bool) {
+        let (m, usual) = self.other.usual_sample(surface, wo, self.of_other(u), slopes);
+        (self.or_uniform(wo, u, m), usual)
     }
 
     #[inline(always)]

@@ -1,26 +1,39 @@
 //! Which micronormals a BSDF samples.
 
 use crate::Real;
-use crate::ndf::{Ndf, SampleNdf, SampleVndf, Vec2, Vec3};
+use crate::ndf::{Course, Ndf, SampleNdf, SampleVndf, Slopes, Vec2, Vec3};
 
 /// A way to draw the micronormal a ray is reflected by.
 ///
 /// The density of the reflected directions is p(wi) = D(wm) `density_over_d` + `constant_density`, 1/sr. A strategy
 /// without the constant has a weight that contains no D.
 pub trait NormalSampling<N: Ndf> {
-    /// Whether a sample is straight-line code: a batch compiles what is not for the build's own vectors alone.
+    /// See [`SampleVndf::course`].
     #[doc(hidden)]
     #[inline(always)]
     #[must_use]
-    fn straight_line() -> bool
+    fn course() -> Course
     where
         Self: Sized,
     {
-        true
+        Course::Straight
     }
 
     /// A unit normal for the direction `wo`, from u ∈ [0, 1)².
     fn sample(&self, surface: &N, wo: Vec3<N>, u: Vec2<N>) -> Vec3<N>;
+
+    /// See [`SampleVndf::usual_vndf_sample`].
+    #[doc(hidden)]
+    #[inline(always)]
+    fn usual_sample(
+        &self,
+        surface: &N,
+        wo: Vec3<N>,
+        u: Vec2<N>,
+        _slopes: Slopes<'_, N::Scalar>,
+    ) -> (Vec3<N>, bool) {
+        (self.sample(surface, wo, u), true)
+    }
 
     /// The density of directions reflected by normals in proportion to D, over D(wm): p(wm)/(4 (wo·wm) D(wm)).
     ///
@@ -52,13 +65,24 @@ pub struct AllNormals;
 
 impl<N: SampleVndf> NormalSampling<N> for VisibleNormals {
     #[inline(always)]
-    fn straight_line() -> bool {
-        N::straight_line()
+    fn course() -> Course {
+        N::course()
     }
 
     #[inline(always)]
     fn sample(&self, surface: &N, wo: Vec3<N>, u: Vec2<N>) -> Vec3<N> {
         surface.sample_vndf(wo, u)
+    }
+
+    #[inline(always)]
+    fn usual_sample(
+        &self,
+        surface: &N,
+        wo: Vec3<N>,
+        u: Vec2<N>,
+        slopes: Slopes<'_, N::Scalar>,
+    ) -> (Vec3<N>, bool) {
+        surface.usual_vndf_sample(wo, u, slopes)
     }
 
     #[inline(always)]

@@ -3,6 +3,7 @@
 use crate::Real;
 use crate::elementary::sin_cos_of_turn;
 use crate::map::Map;
+use crate::ndf::Slopes;
 use crate::profile::{Profile, SampleProfile, SampleVisibleProfile, shape_invariant};
 
 /// GGX (Trowbridge–Reitz) slopes: D = 1/(π αx αy (wm.x²/αx² + wm.y²/αy² + wm.z²)²).
@@ -75,13 +76,25 @@ impl<T: Real> SampleVisibleProfile<T> for Ggx {
     /// Written for |v| (c + v), nothing is divided and nothing cancels: with ℓ = |v| and p = ℓ + v.z, its height is
     /// (1 − u.y) p and the radius of ℓ c is √(u.y ((1 − u.y) p² + v.x² + v.y²)).
     #[inline(always)]
-    fn sample_visible(&self, [x, y, z]: [T; 3], s2: T, [u1, u2]: [T; 2]) -> [T; 3] {
+    fn sample_visible(&self, v: [T; 3], s2: T, u: [T; 2]) -> [T; 3] {
         // From below p = s²/(ℓ − v.z).
-        let larger = (z * z + s2).sqrt() + z.abs();
-        let p = if z < T::ZERO { s2 / larger } else { larger };
-        let height = (T::ONE - u2) * p;
-        let radius = (u2 * (p * height + s2)).sqrt();
-        let (sin, cos) = sin_cos_of_turn(u1);
-        [radius * cos + x, radius * sin + y, height]
+        let larger = (v[2] * v[2] + s2).sqrt() + v[2].abs();
+        on_cap(v, s2, u, if v[2] < T::ZERO { s2 / larger } else { larger })
     }
+
+    /// From above.
+    #[inline(always)]
+    fn usual_visible_sample(&self, v: [T; 3], s2: T, u: [T; 2], _: Slopes<'_, T>) -> ([T; 3], bool) {
+        let p = (v[2] * v[2] + s2).sqrt() + v[2];
+        (on_cap(v, s2, u, p), v[2] >= T::ZERO)
+    }
+}
+
+/// The normal on the cap of height p.
+#[inline(always)]
+fn on_cap<T: Real>([x, y, _]: [T; 3], s2: T, [u1, u2]: [T; 2], p: T) -> [T; 3] {
+    let height = (T::ONE - u2) * p;
+    let radius = (u2 * (p * height + s2)).sqrt();
+    let (sin, cos) = sin_cos_of_turn(u1);
+    [radius * cos + x, radius * sin + y, height]
 }

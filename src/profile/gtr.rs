@@ -36,6 +36,7 @@ use crate::elementary::{exp_m1, inverse_power_of_ratio, ln, ln_1p, sin_cos_of_tu
 use crate::error::Error;
 use crate::map::{Isotropic, Map};
 use crate::microsurface::Microsurface;
+use crate::ndf::Course;
 use crate::profile::gtr::components::Components;
 use crate::profile::{Profile, SampleProfile, SampleVisibleProfile};
 use crate::roughness::checked;
@@ -200,7 +201,7 @@ pub trait VisibleMasking<T: Real>: Masking<T> {
 
 impl<T: Real, K: VisibleMasking<T>> SampleVisibleProfile<T> for Gtr<T, K> {
     /// A component is chosen first.
-    const STRAIGHT_LINE: bool = false;
+    const COURSE: Course = Course::Branching;
 
     #[inline(always)]
     fn sample_visible(&self, v: [T; 3], _: T, u: [T; 2]) -> [T; 3] {

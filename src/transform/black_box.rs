@@ -3,8 +3,8 @@
 use crate::Real;
 use crate::error::Error;
 use crate::map::invertible;
-use crate::microsurface::turned_into_view;
-use crate::ndf::{Ndf, SampleNdf, SampleVndf, Vec2, Vec3};
+use crate::microsurface::{normalized_in_view, turned_into_view};
+use crate::ndf::{Course, Ndf, SampleNdf, SampleVndf, Slopes, Vec2, Vec3};
 use crate::vector::{dot, normalized};
 
 /// Any distribution, moved by a 2×2 matrix of the tangent plane.
@@ -194,13 +194,25 @@ impl<N: SampleNdf> SampleNdf for Transformed<N> {
 
 impl<N: SampleVndf> SampleVndf for Transformed<N> {
     #[inline(always)]
-    fn straight_line() -> bool {
-        N::straight_line()
+    fn course() -> Course {
+        N::course()
     }
 
     #[inline(always)]
     fn sample_vndf(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self> {
         let m = self.ndf.sample_vndf(self.pulled_direction(w).0, u);
         turned_into_view(w.into(), self.pushed_normal(m)).into()
+    }
+
+    #[inline(always)]
+    fn usual_vndf_sample(
+        &self,
+        w: Vec3<Self>,
+        u: Vec2<Self>,
+        slopes: Slopes<'_, N::Scalar>,
+    ) -> (Vec3<Self>, bool) {
+        let (m, usual) = self.ndf.usual_vndf_sample(self.pulled_direction(w).0, u, slopes);
+        let (m, in_view) = normalized_in_view(w.into(), self.pushed_normal(m));
+        (m.into(), usual && in_view)
     }
 }

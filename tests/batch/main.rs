@@ -18,6 +18,8 @@ use microsurface::bsdf::{AllNormals, NormalSampling, RoughConductor, UniformMixt
 use microsurface::fresnel::{Conductor, Dielectric, Fresnel, Perfect, Schlick, Spectrum};
 use microsurface::glam::Vec3;
 use microsurface::ndf::Vec3 as Vec3Of;
+use microsurface::profile::beckmann::BeckmannTo1e6;
+use microsurface::transform::Transformed;
 use microsurface::{Beckmann, Ggx, Gtr, Ndf, Real, RoughnessMatrix, SampleNdf, SampleVndf};
 
 /// One more than a block, and a few.
@@ -32,6 +34,16 @@ struct Arguments<T> {
 
 impl<T: Real> Arguments<T> {
     fn new(len: usize, seed: u64) -> Self {
+        Self::with(len, seed, true)
+    }
+
+    /// Directions above the horizon, of which batches draw samples by what usually suffices, but for one in the second
+    /// block.
+    fn usual(len: usize, seed: u64) -> Self {
+        Self::with(len, seed, false)
+    }
+
+    fn with(len: usize, seed: u64, special: bool) -> Self {
         let mut state = seed;
         let mut random = move || {
             state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
@@ -41,6 +53,7 @@ impl<T: Real> Arguments<T> {
             let mut slices = [const { Vec::new() }; 3];
             for i in 0..len {
                 let z = match (i + shift) % 17 {
+                    _ if !special => random() * if i == 65 { -1.0 } else { 1.0 },
                     3 => 0.0,
                     5 => -random(),
                     7 => 1.0,
@@ -49,7 +62,7 @@ impl<T: Real> Arguments<T> {
                 };
                 let (sin, cos) = (core::f64::consts::TAU * random()).sin_cos();
                 let r = (1.0 - z * z).sqrt();
-                let nan = if (i + shift) % 23 == 11 { f64::NAN } else { 0.0 };
+                let nan = if special && (i + shift) % 23 == 11 { f64::NAN } else { 0.0 };
                 for (slice, c) in slices.iter_mut().zip([r * cos, r * sin + nan, z]) {
                     slice.push(T::lit(c));
                 }
@@ -162,13 +175,14 @@ fn samples<B: NdfBatch + ?Sized>(batch: &B, len: usize, at: &dyn Fn(usize) -> B:
 where
     B::Material: SampleVndf,
 {
-    let a = Arguments::<Scalar<B>>::new(len, 2);
-    let mut normals = [0, 1, 2].map(|_| vec![Scalar::<B>::ONE; len]);
-    let [x, y, z] = &mut normals;
-    batch.sample_vndf_batch(a.wo(), a.u(), DirectionsMut { x, y, z });
-    same_directions("sample_vndf", &normals, |i| {
-        at(i).sample_vndf(direction::<Scalar<B>>(&a.wo, i), numbers(&a.u, i))
-    });
+    for a in [Arguments::<Scalar<B>>::new(len, 2), Arguments::usual(len, 2)] {
+        let mut normals = [0, 1, 2].map(|_| vec![Scalar::<B>::ONE; len]);
+        let [x, y, z] = &mut normals;
+        batch.sample_vndf_batch(a.wo(), a.u(), DirectionsMut { x, y, z });
+        same_directions("sample_vndf", &normals, |i| {
+            at(i).sample_vndf(direction::<Scalar<B>>(&a.wo, i), numbers(&a.u, i))
+        });
+    }
 }
 
 fn reflects<N, F, S, B>(batch: &B, len: usize, at: &dyn Fn(usize) -> RoughConductor<N, F, S>)
@@ -203,20 +217,22 @@ where
     same_values("f of both", &f, &|i| at(i).eval(wi(i), wo(i)));
     same("density of both", &pdf, |i| at(i).pdf(wi(i), wo(i)));
 
-    let mut sampled = [0, 1, 2].map(|_| vec![N::Scalar::ONE; len]);
-    let [x, y, z] = &mut sampled;
-    batch.sample_batch(
-        a.wo(),
-        a.u(),
-        Samples { wi: DirectionsMut { x, y, z }, weight: &mut f, pdf: &mut pdf },
-    );
-    let scalar = |i| at(i).sample(wo(i), numbers(&a.u, i));
-    let zero = N::Scalar::ZERO;
-    same_values("weight", &f, &|i| scalar(i).map_or(F::Output::splat(zero), |sample| sample.weight));
-    same("density of the sample", &pdf, |i| scalar(i).map_or(zero, |sample| sample.pdf));
-    same_directions("sample", &sampled, |i| {
-        scalar(i).map_or(direction::<N::Scalar>(&sampled, i), |sample| sample.wi)
-    });
+    for a in [a, Arguments::usual(len, 3)] {
+        let mut sampled = [0, 1, 2].map(|_| vec![N::Scalar::ONE; len]);
+        let [x, y, z] = &mut sampled;
+        batch.sample_batch(
+            a.wo(),
+            a.u(),
+            Samples { wi: DirectionsMut { x, y, z }, weight: &mut f, pdf: &mut pdf },
+        );
+        let scalar = |i| at(i).sample(direction::<N::Scalar>(&a.wo, i), numbers(&a.u, i));
+        let zero = N::Scalar::ZERO;
+        same_values("weight", &f, &|i| scalar(i).map_or(F::Output::splat(zero), |sample| sample.weight));
+        same("density of the sample", &pdf, |i| scalar(i).map_or(zero, |sample| sample.pdf));
+        same_directions("sample", &sampled, |i| {
+            scalar(i).map_or(direction::<N::Scalar>(&sampled, i), |sample| sample.wi)
+        });
+    }
 }
 
 /// Profiles, maps, samplings and Fresnel terms; every loop is compiled three times, so that not all combinations are here.
@@ -234,6 +250,10 @@ fn everything<T: Elementary>() {
     one(turned, |m, len, at| samples(m, len, at));
     slice(turned, |m, len, at| samples(m, len, at));
     one(beckmann, |m, len, at| samples(m, len, at));
+    let moved = beckmann.map(|surface| Transformed::new(surface, shear::<T>()).unwrap());
+    one(moved, |m, len, at| samples(m, len, at));
+    let quick = [0.3, 0.01].map(|alpha| BeckmannTo1e6::isotropic(l(alpha)).unwrap());
+    one(quick, |m, len, at| samples(m, len, at));
 
     let glass = Dielectric::new(l(1.5)).unwrap();
     let rough = ggx.map(|surface| RoughConductor::new(surface, Schlick::new(l(0.9))));
@@ -256,6 +276,11 @@ fn everything<T: Elementary>() {
             same("g1", &out, |i| at(i).g1(direction::<T>(&a.wo, i), direction::<T>(&a.wi, i)));
         });
     }
+}
+
+/// A matrix that is neither symmetric nor near 1.
+fn shear<T: Real>() -> T::Mat2 {
+    T::matrix([[T::lit(1.5), T::lit(-0.3)], [T::lit(0.8), T::lit(0.6)]])
 }
 
 /// f32 and f64 as their own spectra.

@@ -1,9 +1,13 @@
 //! The published approximations that the crate offers beside the exact functions are what their documentation says:
-//! Walter's Beckmann mask, and the spline mask of GTR.
+//! Walter's Beckmann mask, the spline mask of GTR, Beckmann with the quicker sampling.
 
+use microsurface::filter::{Footprint, polygon};
+use microsurface::profile::beckmann::BeckmannTo1e6;
 use microsurface::profile::gtr::Density;
 use microsurface::profile::gtr::spline::Spline;
-use microsurface::{Beckmann, Gtr, Isotropic, Microsurface, Ndf, Real, glam::DVec3};
+use microsurface::{
+    Beckmann, Gtr, Isotropic, Microsurface, Ndf, Real, RoughnessMatrix, SampleNdf, SampleVndf, glam::DVec3,
+};
 
 /// The direction of this cotangent.
 fn direction(cot: f64) -> DVec3 {
@@ -34,6 +38,40 @@ fn walter_is_as_far_from_beckmann_as_documented() {
     assert!((worst_lambda - 0.04614).abs() < 1e-5, "{worst_lambda}");
     let beyond = direction(1.7);
     assert!(surface.g1_walter2007(beyond) >= 1.0 && surface.lambda_walter2007(beyond) <= 0.0);
+}
+
+/// All but the visible normals of f32.
+#[test]
+fn beckmann_to_1e_6_is_beckmann() {
+    fn check<T: Real>(different_normals: usize) {
+        let l = T::lit;
+        let matrix = RoughnessMatrix::new(l(0.3), l(0.1), l(0.2)).unwrap();
+        let quick = BeckmannTo1e6::from_roughness_matrix(matrix);
+        let exact = Beckmann::from_roughness_matrix(matrix);
+        let step: (T::Vec2, T::Vec2) = ([l(0.1), l(0.05)].into(), [l(-0.1), l(0.2)].into());
+        let mut different = 0;
+        for i in 0..200 {
+            let (cos, turn) = (f64::from(i) / 100.0 - 0.995, f64::from(i));
+            let sin = (1.0 - cos * cos).sqrt();
+            let w: T::Vec3 = [l(sin * turn.cos()), l(sin * turn.sin()), l(cos)].into();
+            let u: T::Vec2 = [l(0.381 * turn % 1.0), l(0.618 * turn % 1.0)].into();
+            assert_eq!(quick.d(w), exact.d(w));
+            assert_eq!(quick.sigma(w), exact.sigma(w));
+            assert_eq!(quick.lambda(w), exact.lambda(w));
+            assert_eq!(quick.sample_d(u), exact.sample_d(u));
+            assert_eq!(
+                polygon::mean_p22(&quick, u, step.0, step.1),
+                polygon::mean_p22(&exact, u, step.0, step.1)
+            );
+            different += usize::from(quick.sample_vndf(w, u) != exact.sample_vndf(w, u));
+        }
+        assert!(different >= different_normals, "{different}");
+        assert_eq!(different == 0, different_normals == 0);
+        let covariance = Footprint::<T>::new(step.0, step.1).covariance(l(0.25));
+        assert_eq!(quick.filtered(covariance).unwrap().map(), exact.filtered(covariance).unwrap().map());
+    }
+    check::<f32>(100);
+    check::<f64>(0);
 }
 
 /// A natural cubic spline through five values at 0, 1, 2, 3, 4, by elimination: independent of the crate's weights.

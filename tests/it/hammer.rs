@@ -77,12 +77,13 @@ impl Random {
         let gtr_alpha = if self.below(4) == 0 { 1.0 } else { self.decades(-8.0, 0.0) };
         let shape = match self.below(8) {
             0..3 => Shape::Ggx,
-            3..5 => Shape::Beckmann,
+            3 => Shape::Beckmann,
+            4 => Shape::BeckmannTo1e6,
             5 => Shape::Mixture { alpha: gtr_alpha, gamma: self.gamma() },
             6 => Shape::Gtr { alpha: gtr_alpha, gamma: self.below(5) as u8 },
             _ => Shape::Spline { alpha: gtr_alpha, gamma: 4.0 * self.unit() },
         };
-        let invariant = matches!(shape, Shape::Ggx | Shape::Beckmann);
+        let invariant = matches!(shape, Shape::Ggx | Shape::Beckmann | Shape::BeckmannTo1e6);
         let alpha = if !invariant && self.below(2) == 0 { 1.0 } else { self.alpha() };
         let other = (alpha * self.decades(-6.0, 6.0)).clamp(1e-8, 1e4);
         let widths = match self.below(3) {
@@ -321,7 +322,7 @@ fn beyond_the_scalar<T: Scalar>(spec: &Spec) -> bool {
     let smallest = (a * d - b * c).abs() / (a * a + b * b + c * c + d * d).sqrt();
     let own = match spec.shape {
         Shape::Gtr { alpha, .. } | Shape::Mixture { alpha, .. } | Shape::Spline { alpha, .. } => alpha,
-        Shape::Ggx | Shape::Beckmann => 1.0,
+        Shape::Ggx | Shape::Beckmann | Shape::BeckmannTo1e6 => 1.0,
     };
     skewness(spec) > 0.25 / T::EPSILON.to_f64() || own * smallest < alpha_range::<T>().0.to_f64()
 }

@@ -112,7 +112,7 @@ fn plane<T: Scalar>(spec: &Spec) -> Plane {
     let factor = spec.factor::<T>();
     match spec.shape {
         Shape::Ggx => Plane::heavy(factor, 1.0),
-        Shape::Beckmann => Plane::gaussian(factor),
+        Shape::Beckmann | Shape::BeckmannTo1e6 => Plane::gaussian(factor),
         Shape::Gtr { alpha, .. } | Shape::Mixture { alpha, .. } | Shape::Spline { alpha, .. } => {
             Plane::heavy(factor, alpha)
         }

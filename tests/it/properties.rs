@@ -76,7 +76,7 @@ fn roundings_of_d(spec: &Spec, m: [f64; 3], absolute: f64) -> f64 {
         2.0 * (p[0].abs() * moved[0] + p[1].abs() * moved[1] + q * z) + absolute * moved[0].hypot(moved[1]);
     match spec.shape {
         Shape::Ggx => 4.0 * z + 2.0 * dq / (1.0 + q),
-        Shape::Beckmann => 4.0 * z + dq,
+        Shape::Beckmann | Shape::BeckmannTo1e6 => 4.0 * z + dq,
         // A power has roundings of its own.
         Shape::Gtr { alpha, .. } => 6.0 * z + 4.0 * dq / (alpha * alpha + q) + 2.0 * dq / (1.0 + q),
         Shape::Mixture { alpha, gamma } => {

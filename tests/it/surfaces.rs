@@ -6,6 +6,7 @@ use std::rc::Rc;
 
 use microsurface::map::{AxisAligned, Isotropic, Linear};
 use microsurface::ndf::{Ndf, SampleNdf, SampleVndf, Vec2, Vec3};
+use microsurface::profile::beckmann::BeckmannTo1e6;
 use microsurface::profile::{SampleProfile, SampleVisibleProfile};
 use microsurface::{Beckmann, Error, Ggx, Gtr, Microsurface, Real, RoughnessMatrix};
 
@@ -14,6 +15,8 @@ use microsurface::{Beckmann, Error, Ggx, Gtr, Microsurface, Real, RoughnessMatri
 pub(crate) enum Shape {
     Ggx,
     Beckmann,
+    /// Beckmann with the quicker sampling of visible normals.
+    BeckmannTo1e6,
     /// With the closed mask of an integer γ.
     Gtr {
         alpha: f64,
@@ -91,6 +94,7 @@ impl Spec {
         match self.shape {
             Shape::Ggx => self.visible(Ggx),
             Shape::Beckmann => self.visible(Beckmann),
+            Shape::BeckmannTo1e6 => self.visible(BeckmannTo1e6),
             Shape::Gtr { alpha, gamma } => {
                 let alpha = T::lit(alpha);
                 match gamma {

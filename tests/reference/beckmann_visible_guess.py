@@ -2,8 +2,8 @@
 
 python tests/reference/beckmann_visible_guess.py     (mpmath, numpy, scipy; about a minute)
 
-Prints the rational fits of h = ierfc/erfc (minimax by Lawson's weights, in 45 digits) and the three formulas of
-the guess (the same weights around a nonlinear least-squares fit), each with the largest error it attains.
+Prints the rational fits of h = ierfc/erfc (minimax by Lawson's weights, in 45 digits), the logarithm and the three
+formulas of the guess (the same weights around a nonlinear least-squares fit), each with the largest error it attains.
 """
 import mpmath as mp
 import numpy as np
@@ -147,10 +147,18 @@ def right(gamma):
     return (lambda c: (x1 - excess(c) - x) / tolerance), [2.6, 2.7, 3.5]
 
 
-for degree in (7, 11):
+def rough_ln():
+    """ln(1 + f)/f for √½ ≤ 1 + f < √2."""
+    f = (3 + np.cos(np.pi * (np.arange(400) + 0.5) / 400)) / np.sqrt(8) - 1
+    return minimax(lambda c: np.polyval(c[::-1], f) * f / np.log1p(f) - 1, [1, -1 / 2, 1 / 3, -1 / 4, 1 / 5])
+
+
+for degree in (5, 7, 11):
     error, p, q = fit_ratio(degree)
     print("h: relative error", mp.nstr(error, 3))
     print("  P", [float(c) for c in p], "\n  Q", [float(c) for c in q])
+error, c = rough_ln()
+print("LN error %.2g" % error, np.round(c, 9).tolist())
 for name, problem in (("BELOW", below()), ("GAMMA", left())):
     error, c = minimax(*problem)
     print(name, "error %.2g" % error, np.round(c, 6).tolist())

@@ -10,6 +10,7 @@ use microsurface::batch::{self, DirectionsMut, NdfBatch, Numbers, ReflectionBatc
 use microsurface::bsdf::RoughConductor;
 use microsurface::elementary::{erf, erf_inv};
 use microsurface::fresnel::{Schlick, Spectrum};
+use microsurface::profile::beckmann::BeckmannTo1e6;
 use microsurface::{Beckmann, Ggx, Gtr, Ndf, Real, SampleVndf};
 
 use super::{
@@ -55,6 +56,13 @@ pub(super) fn bench<T: Elementary + Spectrum<Scalar = T>>(criterion: &mut Criter
     arguments.limits(criterion);
     arguments.ask(criterion, "ggx", Ggx::isotropic(alpha).expect("a width"));
     arguments.ask(criterion, "beckmann", Beckmann::isotropic(alpha).expect("a width"));
+    let quick = BeckmannTo1e6::isotropic(alpha).expect("a width");
+    arguments.visible_normals(criterion, "beckmann-to-1e-6", quick);
+    arguments.samples(
+        criterion,
+        "beckmann-to-1e-6",
+        RoughConductor::new(quick, Schlick::new(black_box(T::lit(F0)))),
+    );
     arguments.ask(criterion, "gtr-8-nodes-1.5", Gtr::isotropic(alpha, gamma).expect("a width"));
 }
 
@@ -196,6 +204,15 @@ impl<T: Elementary + Spectrum<Scalar = T>> Arguments<T> {
             &mut |out| brdf.eval_batch(wi_batch, wo_batch, out),
         );
 
+        self.visible_normals(criterion, name, surface);
+        self.samples(criterion, name, brdf);
+    }
+
+    fn visible_normals<N>(&self, criterion: &mut Criterion, name: &str, surface: N)
+    where
+        N: SampleVndf + Ndf<Scalar = T> + Copy,
+    {
+        let (n, wo, wo_batch) = (self.wo.x.len(), self.wo.slices(), self.wo.borrowed());
         let u: [&[T]; 2] = [&self.u[0], &self.u[1]];
         let u_batch = Numbers { x: u[0], y: u[1] };
         let normals = RefCell::new([0, 1, 2].map(|_| vec![T::ZERO; n]));
@@ -216,7 +233,15 @@ impl<T: Elementary + Spectrum<Scalar = T>> Arguments<T> {
                 surface.sample_vndf_batch(wo_batch, u_batch, DirectionsMut { x, y, z });
             },
         );
+    }
 
+    fn samples<N>(&self, criterion: &mut Criterion, name: &str, brdf: RoughConductor<N, Schlick<T>>)
+    where
+        N: SampleVndf + Ndf<Scalar = T> + Copy,
+    {
+        let (n, wo, wo_batch) = (self.wo.x.len(), self.wo.slices(), self.wo.borrowed());
+        let u: [&[T]; 2] = [&self.u[0], &self.u[1]];
+        let u_batch = Numbers { x: u[0], y: u[1] };
         let mut wi = [0, 1, 2].map(|_| vec![T::ZERO; n]);
         let mut pdf = vec![T::ZERO; n];
         compare_levels::<T>(

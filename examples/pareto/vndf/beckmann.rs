@@ -6,6 +6,8 @@
 use std::io::{self, Write};
 
 use microsurface::elementary::{erf, erf_inv};
+use microsurface::profile::SampleVisibleProfile;
+use microsurface::profile::beckmann::BeckmannTo1e6;
 use microsurface::{Beckmann, Isotropic, Microsurface, Ndf, Real, SampleNdf, SampleVndf};
 
 use super::{ALL, Input, Samplers, VISIBLE, alphas, extreme};
@@ -14,12 +16,19 @@ use crate::blocks::call;
 use crate::elementary::fits::{erf_hastings, erf_inv_giles};
 use crate::textbook::{Elementary, Width, beckmann};
 
+fn quick<T: Real>(alpha: T) -> Microsurface<BeckmannTo1e6, Isotropic<T>> {
+    BeckmannTo1e6::isotropic(alpha).expect("a width")
+}
+
 fn surface<T: Real>(alpha: T) -> Microsurface<Beckmann, Isotropic<T>> {
     Beckmann::isotropic(alpha).expect("a width")
 }
 
 #[inline(always)]
-fn ours<T: Real>(surface: &Microsurface<Beckmann, Isotropic<T>>, [x, y, z, u1, u2]: Input<T>) -> [T; 3] {
+fn ours<T: Real, P: SampleVisibleProfile<T>>(
+    surface: &Microsurface<P, Isotropic<T>>,
+    [x, y, z, u1, u2]: Input<T>,
+) -> [T; 3] {
     surface.sample_vndf([x, y, z].into(), [u1, u2].into()).into()
 }
 
@@ -45,6 +54,7 @@ fn mitsuba<T: Elementary>(&width: &Width<T>, [x, y, z, u1, u2]: Input<T>) -> [T;
 }
 
 call!(Ours<T: Real>: (Microsurface<Beckmann, Isotropic<T>>), 5 => 3, ours);
+call!(Quick<T: Real>: (Microsurface<BeckmannTo1e6, Isotropic<T>>), 5 => 3, ours);
 call!(All<T: Real>: (Microsurface<Beckmann, Isotropic<T>>), 5 => 3, all);
 call!(Jakob<T: Elementary>: (Width<T>), 5 => 3, jakob);
 call!(JakobOfFits<T: Elementary>: (Width<T>), 5 => 3, jakob_of_fits);
@@ -62,6 +72,7 @@ pub(super) fn run(effort: &Effort, out: &mut impl Write) -> io::Result<()> {
     let surfaces = alphas().map(surface::<f32>);
     let widths = alphas().map(Width::<f32>::new);
     samplers.single("sample_vndf", VISIBLE, &surfaces, Ours, exact);
+    samplers.single("to 1e-6", VISIBLE, &alphas().map(quick::<f32>), Quick, exact);
     samplers.single("Jakob 2014", VISIBLE, &widths, Jakob, exact);
     samplers.single("Jakob 2014, pbrt-v3's erf", VISIBLE, &widths, JakobOfFits, exact);
     samplers.single("Mitsuba", VISIBLE, &widths, Mitsuba, exact);

@@ -9,7 +9,8 @@
 //! F(x) = ∫₋∞ˣ (ν − t)·e^(−t²)/√π dt = ½[ν·erfc(−x) + e^(−x²)/√π],
 //!
 //! which has no closed inverse. Earlier inversions were tabulated (Heitz and d'Eon) or iterated to a tolerance
-//! (Jakob 2014). Here one guess and one step (two for f64) of high order reach rounding, without branches.
+//! (Jakob 2014). Here one guess and one step (two for f64) of high order reach rounding, without branches. The guess is made
+//! in the scalar of u; F and the step, for an f32, in f64, or in f32 too where 1e-6 of u will do.
 //!
 //! # F without cancellation
 //!
@@ -50,89 +51,117 @@
 //!   by a rational function of x and w.
 //! - ν < 0: a = G = w² + 2nw − ln A, where ln A = √a·B grows from 0 and B = 2n·√(√π·ierfcx n)/(1 + …√a), whence w.
 //!
+//! In the end each is √(c² + r) − c = r/(c + √(c² + r)), where c and r have a common divisor d: rd, cd and d give it with one
+//! division. For f32 a rough logarithm is enough; that of f64 is exact, and so is then the guess for ν = 0.
+//!
+//! # Many at once
+//!
+//! All this is one chain of operations, each of which waits for the one before, longer than a processor looks ahead: two
+//! vectors of it take twice the time of one. In a batch the parts of the chain are loops of their own over a block.
+//!
 //! # References
 //!
 //! - E. Heitz and E. d'Eon, "Importance Sampling Microfacet-Based BSDFs using the Distribution of Visible Normals",
 //!   2014, doi 10.1111/cgfm.12417.
 //! - W. Jakob, "An Improved Visible Normal Sampling Routine for the Beckmann Distribution", 2014.
 
-use crate::elementary::kernel::polynomial;
-use crate::elementary::{exp, ln};
+mod block;
+mod fit;
+mod guess;
+mod view;
+
+use self::fit::{DOUBLE, Fit, SHORT, SINGLE};
+use self::guess::Outset;
+use self::view::View;
+use crate::elementary::{erfc_inv, erfc_inv_wide};
 use crate::real::Real;
 
-/// Numerator and denominator of h(t) = ierfc t/erfc t, t ≥ 0, constant term first.
-type Fit = (&'static [f64], &'static [f64]);
-// These, and the coefficients of the guess, come from tests/reference/beckmann_visible_guess.py.
+pub(crate) use self::block::slopes_from_above;
 
-/// Relative error of h ≤ 6.4e-11.
-const SINGLE: Fit = (
-    &[
-        0.5641895835833777,
-        0.7995329836722413,
-        0.5700196506095361,
-        0.25171664041192116,
-        0.07195483157377616,
-        0.01271080032572084,
-        0.0011229164746703261,
-    ],
-    &[
-        1.0,
-        2.061210007289916,
-        2.06466701609396,
-        1.2805614813690156,
-        0.5288555711526084,
-        0.146155483512899,
-        0.025421600729155606,
-        0.0022458329493406522,
-    ],
-);
-/// Relative error of h ≤ 3.0e-17.
-const DOUBLE: Fit = (
-    &[
-        0.5641895835477563,
-        1.1493360677779079,
-        1.1818611655927913,
-        0.7918524654995586,
-        0.37884060208756626,
-        0.13449797773488384,
-        0.0358173200730591,
-        0.007073097087655919,
-        0.0009957624409813427,
-        9.106769527442819e-05,
-        4.182267866985617e-06,
-    ],
-    &[
-        1.0,
-        2.681219823127567,
-        3.548460639261151,
-        3.024188911392881,
-        1.8324379074568926,
-        0.8263724664322416,
-        0.282868946692472,
-        0.07361361822180802,
-        0.01432832956589263,
-        0.001999889417696465,
-        0.00018213539054885678,
-        8.364535733971233e-06,
-    ],
-);
+/// How the equation is solved for a scalar.
+pub(crate) trait Inversion<T: Real> {
+    /// The scalar of F and of the steps.
+    type Wide: Real;
+    /// The fit of h.
+    const FIT: Fit;
+    /// The slope across the view, of a Gaussian: erfc x = 2u, u at least ε/4.
+    fn slope_across(u: T) -> T;
+}
 
-/// B of the guess for ν < 0: its coefficient of √a by powers of √(√π·ierfcx n). Error of w ≤ 0.031/(1 + n).
-const BELOW: [f64; 3] = [0.212842, 0.41683, 0.770999];
-/// γ − 1 of the guess for ν ≥ 0: s·(c₀ + c₁s + c₂s²)/(1 + (c₃ + c₄s)·√a). Error of x ≤ 0.0035 where x ≤ 0.
-const GAMMA: [f64; 5] = [1.636621, 0.009239, -0.815615, 1.682954, -0.887447];
-/// The excess of the guess for x > 0: xw²/(c₀ + c₁w³ + c₂xw²). Error of x ≤ 0.027, growing as
-/// (1 − u)^−0.12 below 1 − u = 0.01.
-const EXCESS: [f64; 3] = [2.563261, 2.713977, 3.47698];
+/// As a difference of u to 3e-8 in f32, half the step of u below 1, and to 2e-15 in f64. Both slopes are monotone in u, for every
+/// f32, and for f64 at steps of 2⁻⁴⁴.
+pub(crate) struct ToRounding;
 
-/// Farther below the horizon than this, slope and view direction agree to rounding: the slope is the horizon's.
-const DEEPEST: f64 = 8589934592.0; // 2³³
-/// The guess treats 1 − u as no smaller: the rounding of F, about 2⁻⁵², must stay small beside 1 − F at the guess.
-const LAST: f64 = 8.881784197001252e-16; // 2⁻⁵⁰
-/// The step shrinks v by no smaller a factor, nor below an eighth of its value at this u.
-const CLOSER: f64 = 9.094947017729282e-13; // 2⁻⁴⁰
-/// The guess keeps this part of the way to ν, where its own error could pass it.
-const MARGIN: f64 = 0.00390625; // 2⁻⁸
+impl<T: Real> Inversion<T> for ToRounding {
+    type Wide = T::Wide;
+    const FIT: Fit = if T::WIDENS { SINGLE } else { DOUBLE };
+    #[inline(always)]
+    fn slope_across(u: T) -> T {
+        T::narrow(-erfc_inv_wide::<T>((T::TWO * u).widen()))
+    }
+}
+
+/// In the arithmetic of the scalar: in f32 to 1e-6 as a difference of u, and monotone but for rounding; in f64 [`ToRounding`].
+pub(crate) struct To1e6;
+
+impl<T: Real> Inversion<T> for To1e6 {
+    type Wide = T;
+    const FIT: Fit = if T::WIDENS { SHORT } else { DOUBLE };
+    #[inline(always)]
+    fn slope_across(u: T) -> T {
+        -erfc_inv(T::TWO * u)
+    }
+}
+
+/// u as it is taken: from ε/4, the middle of the first cell of random numbers, so that slopes stay finite.
+#[inline(always)]
+fn within<T: Real>(u: T) -> T {
+    u.max(T::lit(0.25) * T::EPSILON).min(T::ONE - T::HALF * T::EPSILON)
+}
+
+/// How many steps a scalar takes: f32 is content with one.
+#[inline(always)]
+fn steps<T: Real>() -> usize {
+    if T::WIDENS { 1 } else { 2 }
+}
+
+/// The slope x towards the viewer with F(x) = u·F(ν), in the notation of the module.
+///
+/// # Domain
+///
+/// Any ν, also negative and +∞; u in [0, 1), see [`within`].
+///
+/// # Returns
+///
+/// A finite x ≤ ν, x < ν unless they differ by less than rounding (ν below about −10³).
+#[inline(always)]
+fn visible_slope<I: Inversion<T>, T: Real>(nu: I::Wide, u: T) -> I::Wide {
+    let (view, outset) = View::new(nu, I::FIT);
+    slope_at(&view, nu, solve::<I, T>(&view, &outset, u).0)
+}
+
+/// (ξ, f) of u.
+#[inline(always)]
+fn solve<I: Inversion<T>, T: Real>(view: &View<I::Wide>, outset: &Outset<T>, u: T) -> (I::Wide, I::Wide) {
+    let u = within(u);
+    let mut at = view.at(outset.guess(u));
+    for _ in 0..steps::<T>() {
+        at = view.step(at, converted(u), view.distribution(at, I::FIT));
+    }
+    at
+}
+
+/// x at ξ.
+#[inline(always)]
+fn slope_at<W: Real>(view: &View<W>, nu: W, xi: W) -> W {
+    (-(xi + view.n)).min(nu)
+}
+
+/// The slopes along and across the view, of a random number each.
+#[inline(always)]
+pub(crate) fn slopes<I: Inversion<T>, T: Real>(nu: I::Wide, [u1, u2]: [T; 2]) -> [T; 2] {
+    [converted(visible_slope::<I, T>(nu, u1)), I::slope_across(within(u2))]
+}
 
 /// `a` if `condition`, else `b`; both are at hand.
 #[inline(always)]
@@ -140,177 +169,10 @@ fn select<W>(condition: bool, a: W, b: W) -> W {
     if condition { a } else { b }
 }
 
-/// What depends on the view direction alone; the names are those of the module's text.
-struct View<W> {
-    /// max(−ν, 0).
-    n: W,
-    /// max(ν, 1), finite.
-    unit: W,
-    /// 1/max(ν, 1).
-    b: W,
-    /// b·max(ν, 0).
-    bv: W,
-    /// e^(−ν²), or 1 for ν < 0.
-    e: W,
-    /// √π·ierfcx |ν|.
-    k: W,
-    /// erfc ν for ν ≥ 0.
-    erfc: W,
-    /// F(ν)·b, by e^(−ν²) larger for ν < 0. So are all F.
-    total: W,
-}
-
-impl<W: Real> View<W> {
-    #[inline(always)]
-    fn new(nu: W, fit: Fit) -> Self {
-        let (above, n) = (nu.max(W::ZERO), (-nu).max(W::ZERO).min(W::lit(DEEPEST)));
-        let unit = nu.max(W::ONE).min(W::MAX);
-        let b = W::ONE / nu.max(W::ONE);
-        let bv = above.min(W::ONE);
-        let t = above.max(n).min(W::lit(DEEPEST));
-        let (p, q) = (polynomial(t, fit.0), polynomial(t, fit.1));
-        let inverse = W::ONE / (t * q + p);
-        let e = exp(-(above * above));
-        let k = p * inverse;
-        let erfc = e * q * inverse * W::FRAC_1_SQRT_PI;
-        let total = bv + W::HALF * W::FRAC_1_SQRT_PI * b * e * k;
-        Self { n, unit, b, bv, e, k, erfc, total }
-    }
-
-    /// The guess of ξ.
-    #[inline(always)]
-    fn guess(&self, u: W) -> W {
-        let l = W::lit;
-        let below = self.n > W::ZERO;
-        let mass = u * self.total;
-        let at_zero = W::HALF * (self.bv + W::FRAC_1_SQRT_PI * self.b);
-        let at_zero = select(below, self.total, at_zero);
-        let beyond = mass > at_zero;
-
-        // x > 0: erfc x = erfc ν + (1 − erfc ν)·e
-        let span = W::ONE - self.erfc;
-        let rest = self.total - at_zero;
-        let tail = (W::ONE - u).max(l(LAST)) * self.total;
-        let end = l(8.0) * W::FRAC_1_SQRT_PI * self.e * self.unit;
-        let m = tail * (span * span - end * rest) / (span * rest);
-        let gap = W::HALF * (m + (m * m + l(4.0) * end * tail).sqrt());
-        let erfc = self.erfc + gap;
-
-        let inverse = W::ONE / at_zero;
-        let fraction = select(beyond, erfc, select(below, u, mass * inverse));
-        // not 0, also where the fraction was rounded to 1
-        let a = (-ln(fraction)).max(l(0.0625) * W::EPSILON);
-        let root = a.sqrt();
-        let s = select(beyond, W::ONE, W::HALF * self.bv * inverse);
-        let k = self.k.sqrt();
-        let numerator = select(below, W::TWO * self.n * k, s * polynomial(s, &GAMMA[..3]));
-        let slope = select(below, polynomial(k, &BELOW), polynomial(s, &GAMMA[3..]));
-        let ratio = numerator / (W::ONE + root * slope);
-        let gamma = W::ONE + ratio;
-        let centre = select(below, self.n, s * W::FRAC_1_SQRT_PI * gamma);
-        let rise = select(below, a + root * ratio, gamma * a);
-        let radius = (centre * centre + rise).sqrt();
-        let x = radius - centre;
-
-        // x > 0: the excess; b³ scales it
-        let y = (x * self.b).min(self.bv);
-        let w = self.bv - y;
-        let ww = w * w;
-        let excess = y * ww;
-        let divisor = l(EXCESS[0]) * self.b * self.b * self.b + (l(EXCESS[1]) * w + l(EXCESS[2]) * y) * ww;
-        let quotient = select(below, rise, excess) / select(below, centre + radius, divisor);
-        // w is not above, and near 0 equals, the gap over the slope of erfc at ν
-        let nu = self.unit * self.bv;
-        let farthest = W::HALF * W::SQRT_PI * gap / self.e;
-        let nearest = (W::HALF * farthest).min(l(MARGIN) * nu);
-        let x_beyond = (x.min(nu) - quotient).max(nu - farthest).min(nu - nearest);
-        select(below, quotient, select(beyond, -x_beyond, x))
-    }
-
-    /// F and its derivative at ξ, the latter by b larger: f·e^(−x²)/√π.
-    #[inline(always)]
-    fn distribution(&self, xi: W, f: W, fit: Fit) -> (W, W) {
-        let minus_x = xi + self.n;
-        let t = minus_x.abs();
-        let (p, q) = (polynomial(t, fit.0), polynomial(t, fit.1));
-        let e = W::FRAC_1_SQRT_PI * exp(-(xi * (xi + self.n + self.n)));
-        let left = minus_x > W::ZERO;
-        let fq = f * q;
-        let part = W::HALF * e * (self.b * p + select(left, fq, -fq)) / (t * q + p);
-        (select(left, W::ZERO, self.bv) + part, f * e)
-    }
-
-    /// A better (ξ, f): the Taylor series of v to δ⁴.
-    #[inline(always)]
-    fn step(&self, (xi, f): (W, W), u: W, fit: Fit) -> (W, W) {
-        let l = W::lit;
-        let (sum, density) = self.distribution(xi, f, fit);
-        let mass = u * self.total;
-        let y = (sum - mass) / (sum + mass);
-        let z = y * y;
-        let inverse = W::ONE / (density * f);
-        let tau = sum * f * inverse;
-        let inverse_f = density * inverse;
-        let rho = tau * self.b * inverse_f;
-        // q − 1; then q′, q″
-        let r = -W::TWO * (xi + self.n) * tau;
-        let q = W::ONE + r;
-        // beyond this rounding, not the guess, made the difference
-        let limit = W::ONE / (rho * l(0.125) + r.max(W::ZERO));
-        let delta = W::TWO * y * (W::ONE + z * (l(1.0 / 3.0) + z * (l(0.2) + z * l(1.0 / 7.0))));
-        let delta = delta.min(limit).max(-limit);
-        let qr = q + rho;
-        let q1 = -W::TWO * tau * tau - r * qr;
-        let q2 = l(4.0) * tau * tau * qr - q1 * qr - r * (q1 - rho * (q + W::TWO * rho));
-        let third = (q * q - q1) * l(1.0 / 6.0);
-        let fourth = (q * (l(3.0) * q1 - q * q) - q2) * l(1.0 / 24.0);
-        let series = W::ONE - delta * (W::HALF * q - delta * (third + delta * fourth));
-        // v grows by the factor 1 + change; where that is limited, so is the step
-        let step = W::TWO * tau * delta * series;
-        let change = self.b * step * inverse_f;
-        let lowest = (l(0.25) * rho * (W::ONE - u)).max(l(CLOSER)) - W::ONE;
-        let step = select(change < lowest, lowest * f * self.unit, step);
-        let root = (W::ONE + change.max(lowest)).sqrt();
-        (xi + step / (W::ONE + root), f * root)
-    }
-}
-
-/// The slope x towards the viewer with F(x) = u·F(ν), in the notation of the module.
-///
-/// # Domain
-///
-/// Any ν, also negative and +∞; u in [0, 1). Where u is below ε/4 of its scalar, the middle of the first cell of
-/// random numbers, it is taken as ε/4, so that the slope stays finite.
-///
-/// # Returns
-///
-/// A finite x ≤ ν, x < ν unless they differ by less than rounding (ν below about −10³).
-///
-/// # Accuracy
-///
-/// See the tests: as a difference of u, f64 2e-15 and f32 3e-8, half the step of u below 1; monotone in u for every f32, and for
-/// f64 at steps of 2⁻⁴⁴.
+/// The number of `B` nearest to `x`.
 #[inline(always)]
-pub(crate) fn visible_slope<T: Real>(nu: T::Wide, u: T) -> T::Wide {
-    let view = View::new(nu, fit::<T>());
-    let (xi, _) = solve(&view, u);
-    (-(xi + view.n)).min(nu)
-}
-
-/// The fit of h for a scalar.
-#[inline(always)]
-fn fit<T: Real>() -> Fit {
-    if T::WIDENS { SINGLE } else { DOUBLE }
-}
-
-/// (ξ, f) of u.
-#[inline(always)]
-fn solve<T: Real>(view: &View<T::Wide>, u: T) -> (T::Wide, T::Wide) {
-    let u = u.max(T::lit(0.25) * T::EPSILON).min(T::ONE - T::HALF * T::EPSILON).widen();
-    let xi = view.guess(u);
-    let first = view.step((xi, view.bv + view.b * xi), u, fit::<T>());
-    // f32 is content with one step
-    if T::WIDENS { first } else { view.step(first, u, fit::<T>()) }
+pub(crate) fn converted<A: Real, B: Real>(x: A) -> B {
+    B::lit(x.to_f64())
 }
 
 #[cfg(test)]

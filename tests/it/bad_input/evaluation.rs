@@ -14,6 +14,7 @@ fn surfaces<T: Scalar>() -> Vec<Surface<T>> {
     for shape in [
         Shape::Ggx,
         Shape::Beckmann,
+        Shape::BeckmannTo1e6,
         Shape::Gtr { alpha: 0.3, gamma: 0 },
         Shape::Gtr { alpha: 0.3, gamma: 1 },
         Shape::Gtr { alpha: 0.3, gamma: 4 },

@@ -65,7 +65,9 @@ fn check(maps: usize) {
     for index in 0..maps {
         let shape = shape(&mut random, index);
         let widths = match shape {
-            Shape::Ggx | Shape::Beckmann => Widths::Isotropic(10_f64.powf(uniform(&mut random, -3.0, 0.0))),
+            Shape::Ggx | Shape::Beckmann | Shape::BeckmannTo1e6 => {
+                Widths::Isotropic(10_f64.powf(uniform(&mut random, -3.0, 0.0)))
+            }
             _ => Widths::Isotropic(1.0),
         };
         let columns = matrix(&mut random);
