@@ -33,6 +33,7 @@
 //! |---|---|
 //! | the usual surface | [`Ggx`] |
 //! | a Gaussian surface, exact under filtering and sums | [`Beckmann`] |
+//! | the same, its visible normals in batches in half the time | [`BeckmannTo1e6`](profile::beckmann::BeckmannTo1e6) |
 //! | heavier or lighter tails | [`Gtr::isotropic`], at integer γ [`Gtr::closed`]; see [`profile::gtr`] |
 //! | the same roughness in every direction | `isotropic(alpha)` |
 //! | two roughnesses along the axes | `anisotropic(alpha_x, alpha_y)` |
