@@ -31,13 +31,13 @@ mod log;
 mod trig;
 
 pub use erf::{erf, erfc};
-pub(crate) use erf_inv::erfc_inv_wide;
 pub use erf_inv::{erf_inv, erfc_inv};
+pub(crate) use erf_inv::{erfc_inv_inside, erfc_inv_inside_wide};
 pub(crate) use erfcx::ierfcx_near;
 pub use erfcx::{erfcx, ierfcx};
 pub use exp::{exp, exp_m1, exp_neg_square, exp_wide};
 pub(crate) use exp::{exp_normal, exp_normal_wide};
-pub(crate) use log::{inverse_power_of_ratio, inverse_root};
+pub(crate) use log::{inverse_power_of_ratio, inverse_root, ln_normal};
 pub use log::{ln, ln_1p, ln_wide, pow_wide};
 pub(crate) use trig::sin_cos_of_turn;
 pub use trig::{atan2, sin_cos_turns};

@@ -4,7 +4,8 @@
 //! the intervals is the same, so that only coefficients are selected, not results.
 
 use super::kernel::polynomial_of;
-use super::{ln, ln_wide};
+use super::ln;
+use super::log::{ln_normal, ln_normal_wide};
 use crate::real::Real;
 
 /// The x ≥ 0 with erf x = `p` and erfc x = `q`, both given, 0 ≤ p and q ≤ 1; the coefficients are those of `T`, the
@@ -33,22 +34,27 @@ fn selected<W: Real>(v: W, near: bool, central: bool, [a, b, c]: [&'static [f64]
     })
 }
 
-/// The inverse from both sides: erfc⁻¹ q for 0 ≤ q ≤ 2.
+/// The inverse from both sides: erfc⁻¹ q for 0 < q < 2.
 #[inline(always)]
 fn inverse_of_complement<T: Real, W: Real>(q: W, ln: impl Fn(W) -> W) -> W {
     let p = W::ONE - q;
     let other = W::TWO - q;
     let smaller = if other < q { other } else { q };
     let x = inverse::<T, W>(p.abs(), smaller, ln);
-    let x = if smaller == W::ZERO { W::INFINITY } else { x };
     if q > W::ONE { -x } else { x }
 }
 
-/// [`erfc_inv`] to the digits of `T`, computed in the wide scalar: the error is that of the fit, which is smooth, and
-/// so the result, rounded to `T`, is monotone ulp by ulp. Samplers want that.
+/// [`erfc_inv`] of ε/2 ≤ q ≤ 2 − ε.
 #[inline(always)]
-pub(crate) fn erfc_inv_wide<T: Real>(q: T::Wide) -> T::Wide {
-    inverse_of_complement::<T, T::Wide>(q, ln_wide::<T>)
+pub(crate) fn erfc_inv_inside<T: Real>(q: T) -> T {
+    inverse_of_complement::<T, T>(q, ln_normal)
+}
+
+/// The same to the digits of `T`, computed in the wide scalar: the error is that of the fit, which is smooth, and so the
+/// result, rounded to `T`, is monotone ulp by ulp. Samplers want that.
+#[inline(always)]
+pub(crate) fn erfc_inv_inside_wide<T: Real>(q: T::Wide) -> T::Wide {
+    inverse_of_complement::<T, T::Wide>(q, ln_normal_wide::<T>)
 }
 
 /// The inverse of the error function: the x with erf x = p.
@@ -115,5 +121,6 @@ pub fn erf_inv<T: Real>(p: T) -> T {
 #[must_use]
 #[inline(always)]
 pub fn erfc_inv<T: Real>(q: T) -> T {
-    inverse_of_complement::<T, T>(q, ln)
+    let x = inverse_of_complement::<T, T>(q, ln);
+    if q == T::ZERO || q == T::TWO { T::INFINITY.copysign(T::ONE - q) } else { x }
 }

@@ -69,6 +69,20 @@ pub fn ln<T: Real>(x: T) -> T {
     ln_special(x, ln_of_parts(f, k, T::LN))
 }
 
+/// [`ln`] of a positive normal number, without what only others need.
+#[inline(always)]
+pub(crate) fn ln_normal<T: Real>(x: T) -> T {
+    let (m, k) = x.split_exponent();
+    ln_of_parts(m - T::ONE, k, T::LN)
+}
+
+/// [`ln_wide`] of a positive normal number.
+#[inline(always)]
+pub(crate) fn ln_normal_wide<T: Real>(x: T::Wide) -> T::Wide {
+    let (m, k) = x.split_exponent();
+    ln_of_parts(m - T::Wide::ONE, k, T::LN_WIDE)
+}
+
 /// The natural logarithm in f64, to as many digits as a power in `T` needs.
 ///
 /// `exp_wide(g * ln_wide(x))` is xᵍ to an ulp in f32 for |g·ln x| ≤ 90. For f32 the polynomial is three terms shorter

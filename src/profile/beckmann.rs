@@ -167,7 +167,8 @@ fn cotangent<I: Inversion<T>, T: Real>(z: T, s: T) -> I::Wide {
 /// The normal with these slopes along and across the view v, whose horizontal part has the length s.
 #[inline(always)]
 fn facet<T: Real>(v: [T; 3], s: T, [u1, u2]: [T; 2], [along, across]: [T; 2]) -> [T; 3] {
-    let [along_x, along_y] = if s > T::ZERO { [v[0] / s, v[1] / s] } else { [T::ONE, T::ZERO] };
+    let inverse = T::ONE / s;
+    let [along_x, along_y] = if s > T::ZERO { [v[0] * inverse, v[1] * inverse] } else { [T::ONE, T::ZERO] };
     // The limits of the inversion would turn a NaN into a number.
     let z = T::ONE + T::ZERO * (v[0] + v[1] + v[2] + u1 + u2);
     [across * along_y - along * along_x, -(along * along_y) - across * along_x, z]

@@ -73,7 +73,7 @@ mod view;
 use self::fit::{DOUBLE, Fit, SHORT, SINGLE};
 use self::guess::Outset;
 use self::view::View;
-use crate::elementary::{erfc_inv, erfc_inv_wide};
+use crate::elementary::{erfc_inv_inside, erfc_inv_inside_wide};
 use crate::real::Real;
 
 pub(crate) use self::block::slopes_from_above;
@@ -97,7 +97,7 @@ impl<T: Real> Inversion<T> for ToRounding {
     const FIT: Fit = if T::WIDENS { SINGLE } else { DOUBLE };
     #[inline(always)]
     fn slope_across(u: T) -> T {
-        T::narrow(-erfc_inv_wide::<T>((T::TWO * u).widen()))
+        T::narrow(-erfc_inv_inside_wide::<T>((T::TWO * u).widen()))
     }
 }
 
@@ -109,7 +109,7 @@ impl<T: Real> Inversion<T> for To1e6 {
     const FIT: Fit = if T::WIDENS { SHORT } else { DOUBLE };
     #[inline(always)]
     fn slope_across(u: T) -> T {
-        -erfc_inv(T::TWO * u)
+        -erfc_inv_inside(T::TWO * u)
     }
 }
 

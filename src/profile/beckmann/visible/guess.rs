@@ -2,7 +2,7 @@
 
 use super::select;
 use crate::elementary::kernel::polynomial;
-use crate::elementary::ln;
+use crate::elementary::ln_normal;
 use crate::real::Real;
 
 /// B of the guess for ν < 0: its coefficient of √a by powers of √(√π·ierfcx n). Error of w ≤ 0.031/(1 + n).
@@ -85,7 +85,10 @@ impl<G: Real> Outset<G> {
         let gap = G::HALF * (m + (m * m + l(4.0) * end * tail).sqrt());
         // F(0) is F(ν) below; not 0, also where the fraction was rounded to 1
         let fraction = select(beyond, self.erfc + gap, m);
-        (gap, -(if G::WIDENS { rough_ln(fraction) } else { ln(fraction) }).min(l(-0.0625) * G::EPSILON))
+        (
+            gap,
+            -(if G::WIDENS { rough_ln(fraction) } else { ln_normal(fraction) }).min(l(-0.0625) * G::EPSILON),
+        )
     }
 
     /// |x|, or ξ where ν < 0, of a.

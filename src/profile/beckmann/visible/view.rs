@@ -62,12 +62,14 @@ impl<W: Real> View<W> {
     #[inline(always)]
     fn of_parts<G: Real>(above: W, n: W, fit: Fit) -> (Self, Outset<G>) {
         let unit = above.max(W::ONE).min(W::MAX);
-        let b = W::ONE / above.max(W::ONE);
         let bv = above.min(W::ONE);
         let far = above.min(steep());
         let t = far.max(n);
         let (p, q) = (polynomial(t, fit.0), polynomial(t, fit.1));
-        let inverse = W::ONE / (t * q + p);
+        let divisor = t * q + p;
+        // where it overflows, b and e^(−ν²) are nothing beside 1
+        let both = W::ONE / (unit * divisor);
+        let (b, inverse) = (divisor * both, unit * both);
         let e = exp_normal(-(far * far));
         let k = p * inverse;
         let erfc = e * q * inverse * W::FRAC_1_SQRT_PI;
@@ -124,10 +126,7 @@ impl<W: Real> View<W> {
         // q − 1; then q′, q″
         let r = -W::TWO * (xi + self.n) * tau;
         let q = W::ONE + r;
-        // beyond this rounding, not the guess, made the difference
-        let limit = W::ONE / (rho * l(0.125) + r.max(W::ZERO));
         let delta = W::TWO * y * (W::ONE + z * (l(1.0 / 3.0) + z * (l(0.2) + z * l(1.0 / 7.0))));
-        let delta = delta.min(limit).max(-limit);
         let qr = q + rho;
         let q1 = -W::TWO * tau * tau - r * qr;
         let q2 = l(4.0) * tau * tau * qr - q1 * qr - r * (q1 - rho * (q + W::TWO * rho));
