@@ -16,7 +16,7 @@
 //! # Domain
 //! Any length, 0 included; a length that is no multiple of the block is filled up with copies of one of its elements, so
 //! that the rest takes the same path: a batch costs whole blocks of 64, so that scalar calls are cheaper for fewer than 17 (GGX's
-//! reflection) to 40 elements (Beckmann's visible normals). An element never depends on its neighbours: NaN stays in its
+//! reflection) to 35 elements (Beckmann's visible normals). An element never depends on its neighbours: NaN stays in its
 //! lane. Materials are `Copy`; one that is not is passed as `&material`. A block of samples with a view from below the horizon, a NaN,
 //! or a facet at the very edge of visibility takes twice the time of others.
 //!
