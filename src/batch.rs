@@ -58,6 +58,7 @@ mod filtered;
 mod map;
 mod material;
 mod ndf;
+mod normals;
 mod varied;
 
 pub use blocks::{Sink, Source};

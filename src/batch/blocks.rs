@@ -6,33 +6,43 @@
 use core::borrow::Borrow;
 
 use crate::Real;
+use crate::batch::normals::normals;
 use crate::batch::{Directions, DirectionsMut, Numbers, Samples};
 use crate::ndf::{Course, Slopes};
-use crate::profile::beckmann::visible::{Inversion, To1e6, ToRounding, converted, slopes_from_above};
 
 /// Elements in a block: a multiple of the lanes of any vectors, several times over, and few enough for a dozen arrays to
 /// stay in the first-level cache. The last block is computed as a whole like the others, so that there is no second,
 /// scalar loop for the rest.
-const BLOCK: usize = 64;
+pub(super) const BLOCK: usize = 64;
 
 /// What a batch computes of each element.
 pub trait Body<M, I> {
-    /// The scalar of the slopes that are found together, where any are.
+    /// The scalar of normals.
     type Number: Real;
     type Out;
-    /// Whether a loop over it can be vector code, and a slope be asked for before.
+    /// How normals are sampled, where any are.
     #[inline(always)]
     fn course() -> Course {
         Course::Straight
     }
-    fn of(&self, material: &M, input: I) -> Self::Out;
-
-    /// The same without what hardly any element needs, and whether it is what [`of`](Self::of) gives: vector code would
-    /// pay for it always. A block where an element is not usual is computed anew, by `of`.
+    /// The normal that an element samples; anything where it samples none.
     #[inline(always)]
-    fn usual(&self, material: &M, input: I, _slopes: Slopes<'_, Self::Number>) -> (Self::Out, bool) {
-        (self.of(material, input), true)
+    fn normal(&self, _material: &M, _input: I) -> [Self::Number; 3] {
+        [Self::Number::ZERO; 3]
     }
+    /// The same without what hardly any element needs, and whether it is [`normal`](Self::normal): vector code would pay for
+    /// that always. The normals of a block where one is not usual are sampled anew.
+    #[inline(always)]
+    fn usual_normal(
+        &self,
+        material: &M,
+        input: I,
+        _slopes: Slopes<'_, Self::Number>,
+    ) -> ([Self::Number; 3], bool) {
+        (self.normal(material, input), true)
+    }
+    /// What is computed, of the normal among others.
+    fn of(&self, material: &M, input: I, normal: [Self::Number; 3]) -> Self::Out;
 }
 
 /// The material of an element, of what is read of it. Not a closure: nothing makes sure that a large one is inlined.
@@ -112,59 +122,18 @@ where
     while start < len {
         let of = numbers.block(start, &mut numbers_pad);
         let arguments = input.block(start, &mut pad);
-        let found = match B::course() {
-            Course::Branching | Course::Straight => None,
-            Course::Solving => Some(slopes::<ToRounding, P, M, B, I>(of, maker, body, arguments)),
-            Course::SolvingTo1e6 => Some(slopes::<To1e6, P, M, B, I>(of, maker, body, arguments)),
-        };
-        let mut all_usual = true;
+        let normals = normals::<P, M, B, I>(of, maker, body, arguments);
         for lane in 0..BLOCK {
             let material = maker.made(P::item(of, lane));
-            let slopes = match &found {
-                None => Slopes::Solved,
-                Some([along, across]) => Slopes::Found([along[lane], across[lane]]),
-            };
-            let (result, usual) = body.usual(material.borrow(), I::item(arguments, lane), slopes);
-            all_usual &= usual;
-            O::put(&mut results, lane, result);
-        }
-        if !all_usual {
-            for lane in 0..BLOCK {
-                let material = maker.made(P::item(of, lane));
-                O::put(&mut results, lane, body.of(material.borrow(), I::item(arguments, lane)));
-            }
+            O::put(
+                &mut results,
+                lane,
+                body.of(material.borrow(), I::item(arguments, lane), normals.at(lane)),
+            );
         }
         output.write(start, &results);
         start += BLOCK;
     }
-}
-
-/// The slopes that the elements of a block ask for.
-#[inline(always)]
-fn slopes<V, P, M, B, I>(
-    of: P::Block<'_>,
-    maker: &M,
-    body: &B,
-    arguments: I::Block<'_>,
-) -> [[B::Number; BLOCK]; 2]
-where
-    V: Inversion<B::Number>,
-    P: Source,
-    M: Maker<P::Item>,
-    B: Body<M::Material, I::Item>,
-    I: Source,
-{
-    let mut nu = [V::Wide::ZERO; BLOCK];
-    let mut slopes = [[B::Number::ZERO; BLOCK]; 2];
-    let [along, across] = &mut slopes;
-    for (lane, ((nu, u1), u2)) in nu.iter_mut().zip(along).zip(across).enumerate() {
-        let material = maker.made(P::item(of, lane));
-        let mut equation = Default::default();
-        body.usual(material.borrow(), I::item(arguments, lane), Slopes::Asked(&mut equation));
-        (*nu, [*u1, *u2]) = (converted(equation.0), equation.1);
-    }
-    slopes_from_above::<V, _, BLOCK>(&nu, &mut slopes);
-    slopes
 }
 
 /// # Panics

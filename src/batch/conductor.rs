@@ -1,6 +1,5 @@
 //! Reflection of many directions.
 
-use crate::Real;
 use crate::batch::blocks::Body;
 use crate::batch::{Directions, Material, Materials, Numbers, Samples};
 use crate::bsdf::{NormalSampling, RoughConductor};
@@ -18,14 +17,18 @@ pub trait Reflection: Material {
     type Spectrum: Spectrum<Scalar = Self::Scalar>;
     fn eval_of(&self, wi: [Self::Scalar; 3], wo: [Self::Scalar; 3]) -> Self::Spectrum;
     fn pdf_of(&self, wi: [Self::Scalar; 3], wo: [Self::Scalar; 3]) -> Self::Scalar;
-    fn sample_of(&self, wo: [Self::Scalar; 3], u: [Self::Scalar; 2])
-    -> Sampled<Self::Scalar, Self::Spectrum>;
-    fn usual_sample_of(
+    fn normal_of(&self, wo: [Self::Scalar; 3], u: [Self::Scalar; 2]) -> [Self::Scalar; 3];
+    fn usual_normal_of(
         &self,
         wo: [Self::Scalar; 3],
         u: [Self::Scalar; 2],
         slopes: Slopes<'_, Self::Scalar>,
-    ) -> (Sampled<Self::Scalar, Self::Spectrum>, bool);
+    ) -> ([Self::Scalar; 3], bool);
+    fn reflected_of(
+        &self,
+        wo: [Self::Scalar; 3],
+        normal: [Self::Scalar; 3],
+    ) -> Sampled<Self::Scalar, Self::Spectrum>;
 }
 
 impl<N, F, S> Reflection for RoughConductor<N, F, S>
@@ -50,25 +53,25 @@ where
         self.pdf(wi.into(), wo.into())
     }
     #[inline(always)]
-    fn sample_of(&self, wo: [N::Scalar; 3], u: [N::Scalar; 2]) -> Sampled<N::Scalar, F::Output> {
-        stored(self.sample_or_nothing(wo.into(), u.into()))
+    fn normal_of(&self, wo: [N::Scalar; 3], u: [N::Scalar; 2]) -> [N::Scalar; 3] {
+        self.sampling().sample(self.surface(), wo.into(), u.into()).into()
     }
     #[inline(always)]
-    fn usual_sample_of(
+    fn usual_normal_of(
         &self,
         wo: [N::Scalar; 3],
         u: [N::Scalar; 2],
         slopes: Slopes<'_, N::Scalar>,
-    ) -> (Sampled<N::Scalar, F::Output>, bool) {
-        let (sample, usual) = self.usual_sample_or_nothing(wo.into(), u.into(), slopes);
-        (stored(sample), usual)
+    ) -> ([N::Scalar; 3], bool) {
+        let (normal, usual) = self.sampling().usual_sample(self.surface(), wo.into(), u.into(), slopes);
+        (normal.into(), usual)
     }
-}
-
-#[inline(always)]
-fn stored<T: Real, S>(sample: crate::bsdf::Sample<T, S>) -> Sampled<T, S> {
-    let wi: [T; 3] = sample.wi.into();
-    (wi.into(), sample.weight, sample.pdf)
+    #[inline(always)]
+    fn reflected_of(&self, wo: [N::Scalar; 3], normal: [N::Scalar; 3]) -> Sampled<N::Scalar, F::Output> {
+        let sample = self.reflected_or_nothing(wo.into(), normal.into());
+        let wi: [N::Scalar; 3] = sample.wi.into();
+        (wi.into(), sample.weight, sample.pdf)
+    }
 }
 
 struct Eval;
@@ -83,7 +86,7 @@ impl<R: Reflection> Body<R, (Vec3<R>, Vec3<R>)> for Eval {
     type Number = R::Scalar;
     type Out = R::Spectrum;
     #[inline(always)]
-    fn of(&self, brdf: &R, (wi, wo): (Vec3<R>, Vec3<R>)) -> R::Spectrum {
+    fn of(&self, brdf: &R, (wi, wo): (Vec3<R>, Vec3<R>), _: Vec3<R>) -> R::Spectrum {
         brdf.eval_of(wi, wo)
     }
 }
@@ -92,7 +95,7 @@ impl<R: Reflection> Body<R, (Vec3<R>, Vec3<R>)> for Pdf {
     type Number = R::Scalar;
     type Out = R::Scalar;
     #[inline(always)]
-    fn of(&self, brdf: &R, (wi, wo): (Vec3<R>, Vec3<R>)) -> R::Scalar {
+    fn of(&self, brdf: &R, (wi, wo): (Vec3<R>, Vec3<R>), _: Vec3<R>) -> R::Scalar {
         brdf.pdf_of(wi, wo)
     }
 }
@@ -101,7 +104,7 @@ impl<R: Reflection> Body<R, (Vec3<R>, Vec3<R>)> for EvalAndPdf {
     type Number = R::Scalar;
     type Out = (R::Spectrum, R::Scalar);
     #[inline(always)]
-    fn of(&self, brdf: &R, (wi, wo): (Vec3<R>, Vec3<R>)) -> Self::Out {
+    fn of(&self, brdf: &R, (wi, wo): (Vec3<R>, Vec3<R>), _: Vec3<R>) -> Self::Out {
         (brdf.eval_of(wi, wo), brdf.pdf_of(wi, wo))
     }
 }
@@ -114,17 +117,21 @@ impl<R: Reflection> Body<R, (Vec3<R>, Vec2<R>)> for Sample {
         R::course()
     }
     #[inline(always)]
-    fn of(&self, brdf: &R, (wo, u): (Vec3<R>, Vec2<R>)) -> Self::Out {
-        brdf.sample_of(wo, u)
+    fn normal(&self, brdf: &R, (wo, u): (Vec3<R>, Vec2<R>)) -> Vec3<R> {
+        brdf.normal_of(wo, u)
     }
     #[inline(always)]
-    fn usual(
+    fn usual_normal(
         &self,
         brdf: &R,
         (wo, u): (Vec3<R>, Vec2<R>),
         slopes: Slopes<'_, R::Scalar>,
-    ) -> (Self::Out, bool) {
-        brdf.usual_sample_of(wo, u, slopes)
+    ) -> (Vec3<R>, bool) {
+        brdf.usual_normal_of(wo, u, slopes)
+    }
+    #[inline(always)]
+    fn of(&self, brdf: &R, (wo, _): (Vec3<R>, Vec2<R>), normal: Vec3<R>) -> Self::Out {
+        brdf.reflected_of(wo, normal)
     }
 }
 

@@ -92,7 +92,7 @@ impl<F: Function<I>, I> Body<(), I> for Of<F> {
     type Number = f32;
     type Out = F::Out;
     #[inline(always)]
-    fn of(&self, (): &(), input: I) -> F::Out {
+    fn of(&self, (): &(), input: I, _: [f32; 3]) -> F::Out {
         self.0.of(input)
     }
 }

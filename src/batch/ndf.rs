@@ -15,7 +15,7 @@ macro_rules! body {
             type Number = N::Scalar;
             type Out = $out;
             #[inline(always)]
-            fn of(&self, $surface: &N, $arguments: $input) -> Self::Out {
+            fn of(&self, $surface: &N, $arguments: $input, _: [N::Scalar; 3]) -> Self::Out {
                 $body
             }
         }
@@ -43,20 +43,22 @@ impl<N: SampleVndf> Body<N, ([N::Scalar; 3], [N::Scalar; 2])> for VisibleNormal 
         N::course()
     }
     #[inline(always)]
-    fn of(&self, surface: &N, (w, u): ([N::Scalar; 3], [N::Scalar; 2])) -> Self::Out {
-        let m: [N::Scalar; 3] = surface.sample_vndf(w.into(), u.into()).into();
-        m.into()
+    fn normal(&self, surface: &N, (w, u): ([N::Scalar; 3], [N::Scalar; 2])) -> [N::Scalar; 3] {
+        surface.sample_vndf(w.into(), u.into()).into()
     }
     #[inline(always)]
-    fn usual(
+    fn usual_normal(
         &self,
         surface: &N,
         (w, u): ([N::Scalar; 3], [N::Scalar; 2]),
         slopes: Slopes<'_, N::Scalar>,
-    ) -> (Self::Out, bool) {
+    ) -> ([N::Scalar; 3], bool) {
         let (m, usual) = surface.usual_vndf_sample(w.into(), u.into(), slopes);
-        let m: [N::Scalar; 3] = m.into();
         (m.into(), usual)
+    }
+    #[inline(always)]
+    fn of(&self, _: &N, _: ([N::Scalar; 3], [N::Scalar; 2]), normal: [N::Scalar; 3]) -> Self::Out {
+        normal.into()
     }
 }
 

@@ -9,7 +9,7 @@ use crate::frame::reflected;
 use crate::fresnel::{Fresnel, Spectrum};
 use crate::map::Map;
 use crate::microsurface::Microsurface;
-use crate::ndf::{Ndf, Slopes, Vec2, Vec3, cosine_scale, masked_cosines};
+use crate::ndf::{Ndf, Vec2, Vec3, cosine_scale, masked_cosines};
 use crate::vector::dot;
 
 /// Single reflection off a rough surface of any distribution and Fresnel term, with height-correlated masking.
@@ -89,6 +89,12 @@ impl<N, F, S> RoughConductor<N, F, S> {
         N: Ndf,
     {
         Self { surface: self.surface.with_form(form), ..self }
+    }
+
+    /// The choice of normals.
+    #[inline(always)]
+    pub(crate) const fn sampling(&self) -> &S {
+        &self.sampling
     }
 
     /// The Fresnel term.
@@ -248,26 +254,9 @@ where
         if up { Some(sample) } else { None }
     }
 
-    /// The same with weight and density 0 in place of `None`, and a wi of no meaning.
+    /// The sample of a normal, with weight and density 0 in place of `None`, and a wi of no meaning.
     #[inline(always)]
-    pub(crate) fn sample_or_nothing(&self, wo: Vec3<N>, u: Vec2<N>) -> Sample<N::Scalar, F::Output> {
-        self.reflected_or_nothing(wo, self.sampling.sample(&self.surface, wo, u))
-    }
-
-    /// The same, and whether it is the sample; see [`SampleVndf::usual_vndf_sample`](crate::SampleVndf::usual_vndf_sample).
-    #[inline(always)]
-    pub(crate) fn usual_sample_or_nothing(
-        &self,
-        wo: Vec3<N>,
-        u: Vec2<N>,
-        slopes: Slopes<'_, N::Scalar>,
-    ) -> (Sample<N::Scalar, F::Output>, bool) {
-        let (wm, usual) = self.sampling.usual_sample(&self.surface, wo, u, slopes);
-        (self.reflected_or_nothing(wo, wm), usual)
-    }
-
-    #[inline(always)]
-    fn reflected_or_nothing(&self, wo: Vec3<N>, wm: Vec3<N>) -> Sample<N::Scalar, F::Output> {
+    pub(crate) fn reflected_or_nothing(&self, wo: Vec3<N>, wm: Vec3<N>) -> Sample<N::Scalar, F::Output> {
         let (up, Sample { wi, weight, pdf }) = self.reflected_by(wo, wm);
         let select = |value| if up { value } else { N::Scalar::ZERO };
         Sample { wi, weight: weight.map(select), pdf: select(pdf) }
