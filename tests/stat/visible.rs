@@ -268,3 +268,9 @@ fn long_sample_vndf() {
     all.extend(cases::<f32>(isotropic(&[1e-3, 0.1, 0.9]), &ANGLES));
     run(Family::long("long sample_vndf"), &all, Effort::LONG);
 }
+
+#[test]
+#[ignore = "long: minutes; see main.rs"]
+fn long_sample_vndf_to_1e_6() {
+    run(Family::long("long sample_vndf to 1e-6"), &cases_to_1e_6(), Effort::LONG);
+}
