@@ -108,6 +108,12 @@ pub trait Real:
     fn matrix(columns: [[Self; 2]; 2]) -> Self::Mat2;
 }
 
+/// The number of `B` nearest to `x`: nothing, once compiled, where `A` is `B`.
+#[inline(always)]
+pub(crate) fn converted<A: Real, B: Real>(x: A) -> B {
+    B::lit(x.to_f64())
+}
+
 macro_rules! real {
     ($t:ident, $vec2:ident, $vec3:ident, $mat2:ident, $sqrt_libm:ident) => {
         #[allow(

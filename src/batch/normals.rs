@@ -5,7 +5,8 @@ use core::borrow::Borrow;
 use crate::Real;
 use crate::batch::blocks::{BLOCK, Body, Maker, Source};
 use crate::ndf::{Course, Slopes};
-use crate::profile::beckmann::visible::{Inversion, To1e6, ToRounding, converted, slopes_from_above};
+use crate::profile::beckmann::visible::{Inversion, To1e6, ToRounding, slopes_from_above};
+use crate::real::converted;
 
 /// The normals of a block, by components.
 pub(super) struct Normals<T>([[T; BLOCK]; 3]);

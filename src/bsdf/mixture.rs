@@ -120,7 +120,6 @@ impl<S, T: Real> UniformMixture<S, T> {
         let (sin, cos) = sin_cos_of_turn(u2);
         let [x, y, height]: [T; 3] = wo.into();
         let half = normalized([radius * cos + x, radius * sin + y, z + height]);
-        // Component by component: a chosen vector would be a branch.
         let m: [T; 3] = m.into();
         if u1 < self.rest { m.into() } else { half.into() }
     }

@@ -5,13 +5,14 @@ pub(crate) mod visible;
 
 pub use to_1e6::BeckmannTo1e6;
 
-use self::visible::{Inversion, ToRounding, converted};
+use self::visible::{Inversion, ToRounding};
 use crate::Real;
 use crate::elementary::{exp_normal, exp_normal_wide, exp_wide, ierfcx, ierfcx_near, ln_1p, sin_cos_of_turn};
 use crate::map::Map;
 use crate::microsurface::Microsurface;
 use crate::ndf::{Course, Slopes, Vec3};
 use crate::profile::{Profile, SampleProfile, SampleVisibleProfile, shape_invariant};
+use crate::real::converted;
 
 /// Beckmann slopes: D = exp(−(wm.x²/αx² + wm.y²/αy²)/wm.z²)/(π αx αy wm.z⁴).
 ///

@@ -74,7 +74,7 @@ use self::fit::{DOUBLE, Fit, SHORT, SINGLE};
 use self::guess::Outset;
 use self::view::View;
 use crate::elementary::{erfc_inv_inside, erfc_inv_inside_wide};
-use crate::real::Real;
+use crate::real::{Real, converted};
 
 pub(crate) use self::block::slopes_from_above;
 
@@ -101,7 +101,7 @@ impl<T: Real> Inversion<T> for ToRounding {
     }
 }
 
-/// In the arithmetic of the scalar: in f32 to 1e-6 as a difference of u, and monotone but for rounding; in f64 [`ToRounding`].
+/// In the arithmetic of the scalar: in f32 to 1e-6 as a difference of u, not monotone ulp by ulp; in f64 [`ToRounding`].
 pub(crate) struct To1e6;
 
 impl<T: Real> Inversion<T> for To1e6 {
@@ -167,12 +167,6 @@ pub(crate) fn slopes<I: Inversion<T>, T: Real>(nu: I::Wide, [u1, u2]: [T; 2]) ->
 #[inline(always)]
 fn select<W>(condition: bool, a: W, b: W) -> W {
     if condition { a } else { b }
-}
-
-/// The number of `B` nearest to `x`.
-#[inline(always)]
-pub(crate) fn converted<A: Real, B: Real>(x: A) -> B {
-    B::lit(x.to_f64())
 }
 
 #[cfg(test)]

@@ -2,8 +2,8 @@
 
 use super::guess::Outset;
 use super::view::View;
-use super::{Inversion, converted, slope_at, steps, within};
-use crate::real::Real;
+use super::{Inversion, slope_at, steps, within};
+use crate::real::{Real, converted};
 
 /// [`slopes`](super::slopes) of many ν ≥ 0 at once, instead of u; where ν is negative or NaN, meaningless numbers.
 ///

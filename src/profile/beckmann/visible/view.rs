@@ -2,10 +2,10 @@
 
 use super::fit::Fit;
 use super::guess::{HIGHEST, LEAST, Outset};
-use super::{converted, select};
+use super::select;
 use crate::elementary::exp_normal;
 use crate::elementary::kernel::polynomial;
-use crate::real::Real;
+use crate::real::{Real, converted};
 
 /// Farther below the horizon than this, slope and view direction agree to rounding: the slope is the horizon's.
 #[inline(always)]
