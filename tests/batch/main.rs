@@ -14,7 +14,7 @@ use microsurface::batch::dispatch::{Level, highest, level, limit_to};
 use microsurface::batch::{
     Directions, DirectionsMut, Materials, NdfBatch, Numbers, ReflectionBatch, Samples,
 };
-use microsurface::bsdf::{AllNormals, NormalSampling, RoughConductor, UniformMixture};
+use microsurface::bsdf::{AllNormals, NormalSampling, RoughConductor, UniformMixture, VisibleNormals};
 use microsurface::fresnel::{Conductor, Dielectric, Fresnel, Perfect, Schlick, Spectrum};
 use microsurface::glam::Vec3;
 use microsurface::ndf::Vec3 as Vec3Of;
@@ -330,6 +330,17 @@ fn spectra_of_three_and_borrowed_distributions() {
     (&table).vndf_batch(a.wo(), a.wi(), &mut one);
     surfaces[1].vndf_batch(a.wo(), a.wi(), &mut other);
     same("vndf of a table", &one, |i| other[i]);
+}
+
+/// A borrowed one solves for the slopes of each element by itself, a mixture hands the question on.
+#[test]
+fn slopes_of_borrowed_and_of_mixed_beckmann() {
+    let surfaces = [0.3_f32, 0.01].map(|alpha| Beckmann::isotropic(alpha).unwrap());
+    one(surfaces.each_ref(), |m, len, at| samples(m, len, at));
+    let mixture = UniformMixture::new(VisibleNormals, 0.3).unwrap();
+    let mixed =
+        surfaces.map(|surface| RoughConductor::new(surface, Perfect::<f32>::new()).sampled_by(mixture));
+    one(mixed, |m, len, at| reflects(m, len, at));
 }
 
 /// Every slice in turn one too short and one too long.
