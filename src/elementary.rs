@@ -14,9 +14,9 @@
 //!
 //! | function | divisions | square roots | contains |
 //! |---|---|---|---|
-//! | [`exp`], [`exp_m1`], [`exp_neg_square`], [`sin_cos_turns`] | 0 | 0 | |
+//! | [`exp`], [`exp2`], [`exp_m1`], [`exp_neg_square`], [`sin_cos_turns`] | 0 | 0 | |
 //! | [`exp_wide`] | 0 | 0 | range reduction in f64 |
-//! | [`ln`], [`ln_1p`], [`ln_wide`] | 1 | 0 | |
+//! | [`ln`], [`log2`], [`ln_1p`], [`ln_wide`] | 1 | 0 | |
 //! | [`pow_wide`] | 1 | 0 | a logarithm and an exponential |
 //! | [`erf`], [`ierfcx`], [`atan2`] | 1 | 0 | |
 //! | [`erfc`], [`erfcx`] | 1 | 0 | an exponential |
@@ -35,9 +35,9 @@ pub use erf_inv::{erf_inv, erfc_inv};
 pub(crate) use erf_inv::{erfc_inv_inside, erfc_inv_inside_wide};
 pub(crate) use erfcx::ierfcx_near;
 pub use erfcx::{erfcx, ierfcx};
-pub use exp::{exp, exp_m1, exp_neg_square, exp_wide};
+pub use exp::{exp, exp_m1, exp_neg_square, exp_wide, exp2};
 pub(crate) use exp::{exp_normal, exp_normal_wide};
 pub(crate) use log::{inverse_power_of_ratio, inverse_root, ln_normal};
-pub use log::{ln, ln_1p, ln_wide, pow_wide};
+pub use log::{ln, ln_1p, ln_wide, log2, pow_wide};
 pub(crate) use trig::sin_cos_of_turn;
 pub use trig::{atan2, sin_cos_turns};

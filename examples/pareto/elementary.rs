@@ -63,6 +63,12 @@ fn powers<T: Libraries>(effort: &Effort) -> Answers {
         "std": |x, _| [x.exp()];
         "libm": |x, _| [x.libm_exp()];
     }
+    let binary = if T::WIDENS { (-126.0, 127.0) } else { (-1022.0, 1023.0) };
+    ask! { answers, effort, function::<T>("exp2", |x, _| [x.exp2()], binary), 1;
+        "elementary": |x, _| [e::exp2(x)];
+        "std": |x, _| [x.std_exp2()];
+        "libm": |x, _| [x.libm_exp2()];
+    }
     ask! { answers, effort, function::<T>("exp_m1", |x, _| [x.exp_m1()], (-2.0, 2.0)), 1;
         "elementary": |x, _| [e::exp_m1(x)];
         "std": |x, _| [x.std_exp_m1()];
@@ -72,6 +78,11 @@ fn powers<T: Libraries>(effort: &Effort) -> Answers {
         "elementary": |x, _| [e::ln(x)];
         "std": |x, _| [x.ln()];
         "libm": |x, _| [x.libm_ln()];
+    }
+    ask! { answers, effort, function::<T>("log2", |x, _| [x.log2()], (0.0, 4.0)), 1;
+        "elementary": |x, _| [e::log2(x)];
+        "std": |x, _| [x.std_log2()];
+        "libm": |x, _| [x.libm_log2()];
     }
     ask! { answers, effort, function::<T>("ln_1p", |x, _| [x.ln_1p()], (-1.0, 2.0)), 1;
         "elementary": |x, _| [e::ln_1p(x)];

@@ -26,6 +26,10 @@ pub trait Kernel: Copy {
     const EXP_RANGE: (f64, f64);
     /// ln 2 as a sum: the first has enough trailing zeros for exact products with every exponent.
     const LN_2: (f64, f64);
+    /// `exp2` overflows at the first and is 0 below the second.
+    const EXP2_RANGE: (f64, f64);
+    /// log₂ e as a sum, the first with half of its digits.
+    const LOG2_E: (f64, f64);
     /// 2π as a sum.
     const TAU: (f64, f64);
     /// Above this `erfcx` and `ierfcx` equal their asymptote to rounding.
@@ -67,6 +71,9 @@ pub trait Kernel: Copy {
     /// (m, k) with m·2ᵏ the number, √½ ≤ m < √2; normal positive numbers only.
     #[must_use]
     fn split_exponent(self) -> (Self, Self);
+    /// 2^−⌊log₂ x⌋ of a positive normal number below half the largest: the number times it is within [1, 2).
+    #[must_use]
+    fn inverse_binade(self) -> Self;
     /// The number with the lower half of its digits zeroed, so that products of two such are exact.
     #[must_use]
     fn upper_half(self) -> Self;
@@ -134,6 +141,11 @@ macro_rules! bits {
             (m, k)
         }
         #[inline(always)]
+        fn inverse_binade(self) -> Self {
+            let one = (1.0 as $t).to_bits();
+            $t::from_bits((2 * one).wrapping_sub(self.to_bits() & $t::INFINITY.to_bits()))
+        }
+        #[inline(always)]
         fn upper_half(self) -> Self {
             $t::from_bits(self.to_bits() & $half_mask)
         }
@@ -153,3 +165,25 @@ macro_rules! bits {
     };
 }
 use bits;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of every exponent for which it is stated, at both ends of the binade and within.
+    fn scaled_to_one<T: Real>(exponents: core::ops::RangeInclusive<i32>) {
+        for exponent in exponents {
+            let power = T::lit(2f64.powi(exponent));
+            for mantissa in [T::ONE, T::ONE + T::EPSILON, T::lit(1.5), T::TWO - T::EPSILON] {
+                let inverse = (mantissa * power).inverse_binade();
+                assert!(inverse * (mantissa * power) == mantissa, "{mantissa} 2^{exponent}: {inverse}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_inverse_of_a_binade_brings_it_to_one() {
+        scaled_to_one::<f32>(-126..=126);
+        scaled_to_one::<f64>(-1022..=1022);
+    }
+}

@@ -35,9 +35,11 @@ macro_rules! budget {
 #[rustfmt::skip]
 const BUDGET: &[Budget] = budget! {
     "exp",            |x, _| e::exp(x),              |x, _| e::exp(x),              (1.1, -710.4536), (1.0, 48.908), (-104.0, 89.0);
+    "exp2",           |x, _| e::exp2(x),             |x, _| e::exp2(x),             (1.0, -132.44773), (1.1, 0.5534895), (-151.0, 129.0);
     "exp_neg_square", |x, _| e::exp_neg_square(x),   |x, _| e::exp_neg_square(x),   (1.0, 9.618), (1.0, 0.5857), (-10.5, 10.5);
     "exp_m1",         |x, _| e::exp_m1(x),           |x, _| e::exp_m1(x),           (1.5, 0.3465736), (2.0, 0.34835047), (-2.0, 2.0);
     "ln",             |x, _| e::ln(x),               |x, _| e::ln(x),               (0.9, core::f64::consts::SQRT_2), (0.9, 1.40546), (0.5, 2.0);
+    "log2",           |x, _| e::log2(x),             |x, _| e::log2(x),             (0.7, core::f64::consts::SQRT_2), (0.9, 1.4129), (0.5, 2.0);
     "ln_1p",          |x, _| e::ln_1p(x),            |x, _| e::ln_1p(x),            (1.5, 0.4142136), (1.6, 0.42009), (-1.0, 2.0);
     "pow",            e::pow_wide,                   |x, g| e::pow_wide(f64::from(x), g), (0.9, 0.2314177), (0.8, 1.495945), (0.0, 4.0);
     "sin_turns",      |x, _| e::sin_cos_turns(x).0,  |x, _| e::sin_cos_turns(x).0,  (1.7, -0.4167125), (1.75, -7.917152), (-2.0, 2.0);
@@ -218,11 +220,17 @@ fn special_values() {
     let cases: &[(&str, f32, f32)] = &[
         ("exp", -inf, 0.0), ("exp", inf, inf), ("exp", 0.0, 1.0), ("exp", -0.0, 1.0), ("exp", 800.0, inf),
         ("exp", -800.0, 0.0), ("exp", f32::MAX, inf), ("exp", -f32::MAX, 0.0),
+        ("exp2", -inf, 0.0), ("exp2", inf, inf), ("exp2", 0.0, 1.0), ("exp2", -0.0, 1.0), ("exp2", 1024.0, inf),
+        ("exp2", -1076.0, 0.0), ("exp2", f32::MAX, inf), ("exp2", -f32::MAX, 0.0), ("exp2", -149.0, 1e-45),
+        ("exp2", 127.0, 1.701_411_8e38), ("exp2", -3.0, 0.125),
         ("exp_neg_square", inf, 0.0), ("exp_neg_square", -inf, 0.0), ("exp_neg_square", 0.0, 1.0),
         ("exp_m1", -inf, -1.0), ("exp_m1", inf, inf), ("exp_m1", 0.0, 0.0), ("exp_m1", -0.0, -0.0),
         ("exp_m1", -1e4, -1.0), ("exp_m1", 1e4, inf), ("exp_m1", 1e-40, 1e-40),
         ("ln", 0.0, -inf), ("ln", -0.0, -inf), ("ln", inf, inf), ("ln", -inf, nan), ("ln", -1.0, nan),
         ("ln", 1.0, 0.0), ("ln", -1e-40, nan),
+        ("log2", 0.0, -inf), ("log2", -0.0, -inf), ("log2", inf, inf), ("log2", -inf, nan), ("log2", -1.0, nan),
+        ("log2", 1.0, 0.0), ("log2", -1e-40, nan), ("log2", 1e-45, -149.0), ("log2", 1.701_411_8e38, 127.0),
+        ("log2", 0.125, -3.0),
         ("ln_1p", -1.0, -inf), ("ln_1p", -1.5, nan), ("ln_1p", inf, inf), ("ln_1p", -inf, nan),
         ("ln_1p", 0.0, 0.0), ("ln_1p", -0.0, -0.0), ("ln_1p", -1e-40, -1e-40),
         ("sin_turns", 0.0, 0.0), ("sin_turns", -0.0, -0.0), ("sin_turns", inf, nan), ("sin_turns", 0.25, 1.0),

@@ -170,3 +170,9 @@ for y, x in ([(0.0, 1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (3e38, -3e38), 
              + list(zip(logarithmic(1e-30, 1e30, 100, True), logarithmic(1e-7, 1e7, 100, True)))
              + [(y, 1.0) for y in around(math.sqrt(2) - 1, 4) + around(1.0, 4)]):
     row("atan2", y, x, mp.atan2(mpf(y), mpf(x)))
+EXP2 = (uniform(-1, 1, 60) + uniform(-150, 128, 80) + uniform(-1074, 1024, 60) + uniform(-1074.9, -1022, 20)
+        + uniform(-149.9, -126, 30) + logarithmic(1e-20, 1, 20, True) + SIGNED_TINY + [0.0, 1.0, -1.0, -149.0, -1074.0]
+        + around(0.5) + around(-0.5) + around(127.5) + around(-80.0))
+for name, function, arguments in ("exp2", lambda x: mp.power(2, x), EXP2), ("log2", lambda x: mp.log(x, 2), LN):
+    for x in dict.fromkeys(arguments):
+        row(name, x, 0.0, function(mpf(x)))

@@ -11,6 +11,8 @@ impl Kernel for f64 {
     const DENORMAL_SCALE: (f64, f64) = (18014398509481984.0, 54.0);
     const EXP_RANGE: (f64, f64) = (709.79, -745.2);
     const LN_2: (f64, f64) = (0.693147180559663, 2.8235290563031577e-13);
+    const EXP2_RANGE: (f64, f64) = (1024.0, -1075.0);
+    const LOG2_E: (f64, f64) = (1.4426950514316559, -1.0542692476429138e-08);
     const TAU: (f64, f64) = (core::f64::consts::TAU, 2.4492935982947064e-16);
     const FAR: f64 = 268435456.0;
     const ERF_ONE: f64 = 5.93;

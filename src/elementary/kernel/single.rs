@@ -11,6 +11,8 @@ impl Kernel for f32 {
     const DENORMAL_SCALE: (f64, f64) = (16777216.0, 24.0);
     const EXP_RANGE: (f64, f64) = (88.73, -104.0);
     const LN_2: (f64, f64) = (0.693145751953125, 1.428606765330187e-06);
+    const EXP2_RANGE: (f64, f64) = (128.0, -150.0);
+    const LOG2_E: (f64, f64) = (1.44287109375, -0.00017605286);
     const TAU: (f64, f64) = (6.2831854820251465, -1.7484555314695172e-07);
     const FAR: f64 = 16384.0;
     const ERF_ONE: f64 = 3.93;
