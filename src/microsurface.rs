@@ -118,6 +118,26 @@ impl<P: Profile<M::Scalar>, M: Map> Ndf for Microsurface<P, M> {
     }
 
     #[inline(always)]
+    fn d_times(&self, wm: Vec3<Self>, fraction: [M::Scalar; 2]) -> M::Scalar {
+        let m: [M::Scalar; 3] = wm.into();
+        let product = self.profile.d_times(&self.map, m, M::Scalar::ONE, fraction);
+        if m[2] < M::Scalar::ZERO { M::Scalar::ZERO } else { product }
+    }
+
+    #[inline(always)]
+    fn d_along_times(&self, h: Vec3<Self>, fraction: [M::Scalar; 2]) -> M::Scalar {
+        let h: [M::Scalar; 3] = h.into();
+        self.profile.d_times(&self.map, h, dot(h, h), fraction)
+    }
+
+    #[inline(always)]
+    fn masked_cosines(&self, wi: Vec3<Self>, wo: Vec3<Self>) -> M::Scalar {
+        let [i, o]: [[M::Scalar; 3]; 2] = [wi.into(), wo.into()];
+        let [i, o] = [i, o].map(|w| [self.map.direction_term(w), w[2]]);
+        self.profile.masked_cosines(i, o)
+    }
+
+    #[inline(always)]
     fn p22(&self, slope: Vec2<Self>) -> M::Scalar {
         let [x, y]: [M::Scalar; 2] = slope.into();
         self.profile.d(&self.map, [-x, -y, M::Scalar::ONE], M::Scalar::ONE)
@@ -176,6 +196,11 @@ impl<P: SampleVisibleProfile<M::Scalar>, M: Map> SampleVndf for Microsurface<P, 
 
     #[inline(always)]
     fn sample_vndf(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self> {
+        self.sample_of_along(self.sample_along(w, u))
+    }
+
+    #[inline(always)]
+    fn sample_along(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self> {
         let w: [M::Scalar; 3] = w.into();
         let (v, s2) = (self.map.pull_direction(w), self.map.direction_term(w));
         let m = self.profile.sample_visible(v, s2, u.into());
@@ -183,7 +208,7 @@ impl<P: SampleVisibleProfile<M::Scalar>, M: Map> SampleVndf for Microsurface<P, 
     }
 
     #[inline(always)]
-    fn usual_vndf_sample(
+    fn usual_sample_along(
         &self,
         w: Vec3<Self>,
         u: Vec2<Self>,
@@ -192,41 +217,30 @@ impl<P: SampleVisibleProfile<M::Scalar>, M: Map> SampleVndf for Microsurface<P, 
         let w: [M::Scalar; 3] = w.into();
         let (v, s2) = (self.map.pull_direction(w), self.map.direction_term(w));
         let (m, usual) = self.profile.usual_visible_sample(v, s2, u.into(), slopes);
-        let (m, in_view) = normalized_in_view(w, self.map.push_normal(m));
-        (m.into(), usual && in_view)
+        let m = self.map.push_normal(m);
+        (m.into(), usual && in_view(w, m))
+    }
+
+    #[inline(always)]
+    fn sample_of_along(&self, along: Vec3<Self>) -> Vec3<Self> {
+        normalized(along.into()).into()
     }
 }
 
-/// The direction of m, of any length, turned towards w where rounding had turned it away.
+/// A vector along m, of any length, turned towards w where rounding had turned it away.
 ///
 /// The facets at the edge of visibility have w·m = 0; a sample there may come out behind by the rounding of the
 /// sum, and would have no density. Nearly all samples are farther from the edge than that, which one comparison
 /// tells.
 #[inline(always)]
 pub(crate) fn turned_into_view<T: Real>(w: [T; 3], m: [T; 3]) -> [T; 3] {
-    let length2 = dot(m, m);
-    let (m, length2) = if in_view(w, m, length2) {
-        (m, length2)
-    } else {
-        let m = turned_from_the_edge(w, m);
-        (m, dot(m, m))
-    };
-    let inv_length = T::ONE / length2.sqrt();
-    m.map(|c| c * inv_length)
+    if in_view(w, m) { m } else { turned_from_the_edge(w, m) }
 }
 
-/// The direction of m, of any length, and whether it is surely in view of w: if not, see [`turned_into_view`].
+/// Whether m is in view of w beyond doubt: if not, see [`turned_into_view`].
 #[inline(always)]
-pub(crate) fn normalized_in_view<T: Real>(w: [T; 3], m: [T; 3]) -> ([T; 3], bool) {
-    let length2 = dot(m, m);
-    let inv_length = T::ONE / length2.sqrt();
-    (m.map(|c| c * inv_length), in_view(w, m, length2))
-}
-
-/// Whether m, of this square, is in view of w beyond doubt.
-#[inline(always)]
-fn in_view<T: Real>(w: [T; 3], m: [T; 3], length2: T) -> bool {
-    let w_m = dot(w, m);
+pub(crate) fn in_view<T: Real>(w: [T; 3], m: [T; 3]) -> bool {
+    let (w_m, length2) = (dot(w, m), dot(m, m));
     // 16ε|m| bounds the rounding of w·m, here and once more by whoever uses the sample: 3ε Σ|terms| ≤ 3√3 ε|m| each.
     // Squares that are no normal numbers tell nothing.
     let edge = T::lit(256.0) * T::EPSILON * T::EPSILON * length2 + T::MIN_POSITIVE;

@@ -1,5 +1,7 @@
 //! The traits of a normal distribution function: evaluation, and sampling of all or of visible normals.
 
+mod borrowed;
+
 use crate::Real;
 use crate::vector::{dot, normalized, positive_part, step};
 
@@ -97,6 +99,28 @@ pub trait Ndf {
         self.d(normalized(h.into()).into())
     }
 
+    /// [`d`](Self::d) times a fraction, numerator and denominator.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn d_times(&self, wm: Vec3<Self>, fraction: [Self::Scalar; 2]) -> Self::Scalar {
+        self.d(wm) * fraction[0] / fraction[1]
+    }
+
+    /// [`d_along`](Self::d_along) times a fraction.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn d_along_times(&self, h: Vec3<Self>, fraction: [Self::Scalar; 2]) -> Self::Scalar {
+        self.d_along(h) * fraction[0] / fraction[1]
+    }
+
+    /// zi zo/G2 of two directions above the horizon, times [`cosine_scale`].
+    #[doc(hidden)]
+    #[inline(always)]
+    fn masked_cosines(&self, wi: Vec3<Self>, wo: Vec3<Self>) -> Self::Scalar {
+        let ([_, _, zi], [_, _, zo]): ([Self::Scalar; 3], [Self::Scalar; 3]) = (wi.into(), wo.into());
+        masked_cosines(zi, zo, self.sigma_above(wi), self.sigma_above(wo))
+    }
+
     /// The density P22 of slopes (−wm.x/wm.z, −wm.y/wm.z): D(wm) wm.z⁴.
     ///
     /// # Domain
@@ -128,7 +152,8 @@ pub trait Ndf {
 
     /// Height-correlated masking and shadowing G2 = χ⁺ χ⁺ / (1 + Λ(wi) + Λ(wo)) of reflection.
     ///
-    /// Evaluated as zi zo/(zo σ(wi) + zi σ(wo) − zi zo).
+    /// Evaluated as z/(σ(w) + z/z′ σ(w′) − z), with z the lower of both cosines: their product, which may underflow long
+    /// before the result, is not formed.
     ///
     /// # Returns
     /// 0 … min(G1(wi), G1(wo)).
@@ -143,12 +168,12 @@ pub trait Ndf {
         let (i, o, m): ([Self::Scalar; 3], [Self::Scalar; 3], _) = (wi.into(), wo.into(), wm.into());
         let (zi, zo) = (i[2], o[2]);
         let visible = step(dot(i, m)) * step(dot(o, m));
-        // The product of the cosines by the cube of the scale, so that it underflows no earlier than the result.
-        let (scale, sigma_i, sigma_o) =
-            (cosine_scale::<Self::Scalar>(), self.sigma_above(wi), self.sigma_above(wo));
-        let square = scale * scale;
-        let ratio = (square * zi) * (scale * zo) / masked_cosines(zi, zo, sigma_i, sigma_o);
-        let g2 = ratio * (Self::Scalar::ONE / square);
+        let (sigma_i, sigma_o) = (self.sigma_above(wi), self.sigma_above(wo));
+        let (lower, higher, of_lower, of_higher) =
+            if zo < zi { (zo, zi, sigma_o, sigma_i) } else { (zi, zo, sigma_i, sigma_o) };
+        let g2 = lower / (of_lower + lower / higher * of_higher - lower);
+        // Not above 1 by rounding.
+        let g2 = if g2 > Self::Scalar::ONE { Self::Scalar::ONE } else { g2 };
         if zi <= Self::Scalar::ZERO || zo <= Self::Scalar::ZERO { Self::Scalar::ZERO } else { visible * g2 }
     }
 
@@ -173,7 +198,7 @@ pub trait Ndf {
     #[inline(always)]
     fn vndf(&self, w: Vec3<Self>, wm: Vec3<Self>) -> Self::Scalar {
         let sigma = self.sigma(w);
-        let density = positive_part(dot(w.into(), wm.into())) * self.d(wm) / sigma;
+        let density = self.d_times(wm, [positive_part(dot(w.into(), wm.into())), sigma]);
         if sigma <= Self::Scalar::ZERO { Self::Scalar::ZERO } else { density }
     }
 
@@ -279,83 +304,31 @@ pub trait SampleVndf: Ndf {
     /// A unit vector with z ≥ 0 and w·wm > 0.
     fn sample_vndf(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self>;
 
-    /// The sample without what hardly any needs, and whether it is the one of [`sample_vndf`](Self::sample_vndf): a
-    /// batch draws a block anew where one is not.
+    /// A vector along the sample, of any length, for callers who need not normalise it: of |m|² and D's arguments the
+    /// scalar has the digits.
     #[doc(hidden)]
     #[inline(always)]
-    fn usual_vndf_sample(
+    fn sample_along(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self> {
+        self.sample_vndf(w, u)
+    }
+
+    /// [`sample_along`](Self::sample_along) without what hardly any sample needs, and whether it is that: a batch draws
+    /// a block anew where one is not.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn usual_sample_along(
         &self,
         w: Vec3<Self>,
         u: Vec2<Self>,
         _slopes: Slopes<'_, Self::Scalar>,
     ) -> (Vec3<Self>, bool) {
-        (self.sample_vndf(w, u), true)
+        (self.sample_along(w, u), true)
     }
-}
 
-/// A borrowed distribution is one: for materials that share a large one, and for batches of one that is not `Copy`.
-impl<N: Ndf + ?Sized> Ndf for &N {
-    type Scalar = N::Scalar;
+    /// The sample of a vector along it.
+    #[doc(hidden)]
     #[inline(always)]
-    fn d(&self, wm: Vec3<N>) -> N::Scalar {
-        (**self).d(wm)
-    }
-    #[inline(always)]
-    fn sigma(&self, w: Vec3<N>) -> N::Scalar {
-        (**self).sigma(w)
-    }
-    #[inline(always)]
-    fn lambda(&self, w: Vec3<N>) -> N::Scalar {
-        (**self).lambda(w)
-    }
-    #[inline(always)]
-    fn sigma_above(&self, w: Vec3<N>) -> N::Scalar {
-        (**self).sigma_above(w)
-    }
-    #[inline(always)]
-    fn d_along(&self, h: Vec3<N>) -> N::Scalar {
-        (**self).d_along(h)
-    }
-    #[inline(always)]
-    fn p22(&self, slope: Vec2<N>) -> N::Scalar {
-        (**self).p22(slope)
-    }
-    #[inline(always)]
-    fn g1(&self, w: Vec3<N>, wm: Vec3<N>) -> N::Scalar {
-        (**self).g1(w, wm)
-    }
-    #[inline(always)]
-    fn g2(&self, wi: Vec3<N>, wo: Vec3<N>, wm: Vec3<N>) -> N::Scalar {
-        (**self).g2(wi, wo, wm)
-    }
-    #[inline(always)]
-    fn g2_separable(&self, wi: Vec3<N>, wo: Vec3<N>, wm: Vec3<N>) -> N::Scalar {
-        (**self).g2_separable(wi, wo, wm)
-    }
-    #[inline(always)]
-    fn vndf(&self, w: Vec3<N>, wm: Vec3<N>) -> N::Scalar {
-        (**self).vndf(w, wm)
-    }
-}
-
-impl<N: SampleNdf + ?Sized> SampleNdf for &N {
-    #[inline(always)]
-    fn sample_d(&self, u: Vec2<N>) -> Vec3<N> {
-        (**self).sample_d(u)
-    }
-    #[inline(always)]
-    fn pdf_d(&self, wm: Vec3<N>) -> N::Scalar {
-        (**self).pdf_d(wm)
-    }
-}
-
-impl<N: SampleVndf + ?Sized> SampleVndf for &N {
-    #[inline(always)]
-    fn sample_vndf(&self, w: Vec3<N>, u: Vec2<N>) -> Vec3<N> {
-        (**self).sample_vndf(w, u)
-    }
-    #[inline(always)]
-    fn usual_vndf_sample(&self, w: Vec3<N>, u: Vec2<N>, slopes: Slopes<'_, N::Scalar>) -> (Vec3<N>, bool) {
-        (**self).usual_vndf_sample(w, u, slopes)
+    fn sample_of_along(&self, along: Vec3<Self>) -> Vec3<Self> {
+        along
     }
 }

@@ -19,7 +19,7 @@ pub mod gtr;
 
 use crate::Real;
 use crate::map::Map;
-use crate::ndf::{Course, Slopes};
+use crate::ndf::{Course, Slopes, masked_cosines};
 
 /// An isotropic slope profile.
 ///
@@ -32,8 +32,23 @@ pub trait Profile<T: Real>: Copy {
     /// m.z ≥ 0, m ≠ 0.
     fn d<M: Map<Scalar = T>>(&self, map: &M, m: [T; 3], length2: T) -> T;
 
+    /// [`d`](Self::d) times a positive fraction, numerator and denominator: for profiles whose D is a quotient, one for
+    /// both.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn d_times<M: Map<Scalar = T>>(&self, map: &M, m: [T; 3], length2: T, fraction: [T; 2]) -> T {
+        self.d(map, m, length2) * fraction[0] / fraction[1]
+    }
+
     /// σ_P(s², z) for z ≥ 0.
     fn sigma_above(&self, s2: T, z: T) -> T;
+
+    /// zi zo/G2 times [`cosine_scale`](crate::ndf::cosine_scale), from (s², z) of two directions above the horizon.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn masked_cosines(&self, [s2_i, z_i]: [T; 2], [s2_o, z_o]: [T; 2]) -> T {
+        masked_cosines(z_i, z_o, self.sigma_above(s2_i, z_i), self.sigma_above(s2_o, z_o))
+    }
 
     /// The projected area of the facets that look away, z Λ = σ_P(s², z) − z = σ_P(s², −z), for z ≥ 0.
     ///

@@ -54,7 +54,7 @@ where
     }
     #[inline(always)]
     fn normal_of(&self, wo: [N::Scalar; 3], u: [N::Scalar; 2]) -> [N::Scalar; 3] {
-        self.sampling().sample(self.surface(), wo.into(), u.into()).into()
+        self.sampling().sample_along(self.surface(), wo.into(), u.into()).into()
     }
     #[inline(always)]
     fn usual_normal_of(
@@ -63,7 +63,7 @@ where
         u: [N::Scalar; 2],
         slopes: Slopes<'_, N::Scalar>,
     ) -> ([N::Scalar; 3], bool) {
-        let (normal, usual) = self.sampling().usual_sample(self.surface(), wo.into(), u.into(), slopes);
+        let (normal, usual) = self.sampling().usual_sample_along(self.surface(), wo.into(), u.into(), slopes);
         (normal.into(), usual)
     }
     #[inline(always)]

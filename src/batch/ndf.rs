@@ -44,7 +44,7 @@ impl<N: SampleVndf> Body<N, ([N::Scalar; 3], [N::Scalar; 2])> for VisibleNormal 
     }
     #[inline(always)]
     fn normal(&self, surface: &N, (w, u): ([N::Scalar; 3], [N::Scalar; 2])) -> [N::Scalar; 3] {
-        surface.sample_vndf(w.into(), u.into()).into()
+        surface.sample_along(w.into(), u.into()).into()
     }
     #[inline(always)]
     fn usual_normal(
@@ -53,11 +53,12 @@ impl<N: SampleVndf> Body<N, ([N::Scalar; 3], [N::Scalar; 2])> for VisibleNormal 
         (w, u): ([N::Scalar; 3], [N::Scalar; 2]),
         slopes: Slopes<'_, N::Scalar>,
     ) -> ([N::Scalar; 3], bool) {
-        let (m, usual) = surface.usual_vndf_sample(w.into(), u.into(), slopes);
+        let (m, usual) = surface.usual_sample_along(w.into(), u.into(), slopes);
         (m.into(), usual)
     }
     #[inline(always)]
-    fn of(&self, _: &N, _: ([N::Scalar; 3], [N::Scalar; 2]), normal: [N::Scalar; 3]) -> Self::Out {
+    fn of(&self, surface: &N, _: ([N::Scalar; 3], [N::Scalar; 2]), along: [N::Scalar; 3]) -> Self::Out {
+        let normal: [N::Scalar; 3] = surface.sample_of_along(along.into()).into();
         normal.into()
     }
 }

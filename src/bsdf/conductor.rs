@@ -5,11 +5,10 @@ use crate::bsdf::Sample;
 use crate::bsdf::sampling::{NormalSampling, VisibleNormals};
 use crate::filter::Footprint;
 use crate::filter::polygon::{self, MeanOverParallelogram};
-use crate::frame::reflected;
 use crate::fresnel::{Fresnel, Spectrum};
 use crate::map::Map;
 use crate::microsurface::Microsurface;
-use crate::ndf::{Ndf, Vec2, Vec3, cosine_scale, masked_cosines};
+use crate::ndf::{Ndf, Vec2, Vec3, cosine_scale};
 use crate::vector::dot;
 
 /// Single reflection off a rough surface of any distribution and Fresnel term, with height-correlated masking.
@@ -108,7 +107,7 @@ impl<N, F, S> RoughConductor<N, F, S> {
 /// The half vector wi + wo, not normalised, and whether anything is reflected.
 struct Half<T> {
     h: [T; 3],
-    length: T,
+    length2: T,
     /// Neither direction is at or below the horizon.
     above: bool,
     /// Above, and the half vector has not vanished.
@@ -124,7 +123,13 @@ impl<T: Real> Half<T> {
         let shortest2 = T::lit(if T::WIDENS { 5.421010862427522e-20 } else { 7.458340731200207e-155 });
         let below = iz <= T::ZERO || oz <= T::ZERO;
         let dark = below || length2 < shortest2;
-        Self { h, length: length2.sqrt(), above: !below, reflects: !dark }
+        Self { h, length2, above: !below, reflects: !dark }
+    }
+
+    /// The cosine between either direction and the normal between them, ½|wi + wo|.
+    #[inline(always)]
+    fn cosine(&self) -> T {
+        T::HALF * self.length2.sqrt()
     }
 
     /// The value where light is reflected, 0 elsewhere.
@@ -145,23 +150,15 @@ where
     #[must_use]
     pub fn eval(&self, wi: Vec3<N>, wo: Vec3<N>) -> F::Output {
         let half = Half::<N::Scalar>::new(wi.into(), wo.into());
-        let d = self.surface.d_along(half.h.into());
-        let f = Self::quarter() * d / self.masked_cosines(wi, wo);
-        self.fresnel.reflectance(N::Scalar::HALF * half.length).scaled(half.select(f))
+        let per_d = [Self::quarter(), self.surface.masked_cosines(wi, wo)];
+        let f = self.surface.d_along_times(half.h.into(), per_d);
+        self.fresnel.reflectance(half.cosine()).scaled(half.select(f))
     }
 
-    /// ¼ in the scale of [`masked_cosines`](Self::masked_cosines).
+    /// ¼ in the scale of the masked cosines.
     #[inline(always)]
     fn quarter() -> N::Scalar {
         N::Scalar::lit(0.25) * cosine_scale::<N::Scalar>()
-    }
-
-    /// zi zo/G2 = zo σ(wi) + zi σ(wo) − zi zo, scaled.
-    #[inline(always)]
-    fn masked_cosines(&self, wi: Vec3<N>, wo: Vec3<N>) -> N::Scalar {
-        let [_, _, zi]: [N::Scalar; 3] = wi.into();
-        let [_, _, zo]: [N::Scalar; 3] = wo.into();
-        masked_cosines(zi, zo, self.surface.sigma_above(wi), self.surface.sigma_above(wo))
     }
 }
 
@@ -205,11 +202,11 @@ where
         let [x, y, z] = half.h;
         let [du, dv] = footprint.steps();
         let mean = polygon::mean_p22(&self.surface, [-x / z, -y / z].into(), du, dv);
-        let secant2 = dot(half.h, half.h) / (z * z);
-        let f = Self::quarter() * (mean * secant2 * secant2) / self.masked_cosines(wi, wo);
+        let secant2 = half.length2 / (z * z);
+        let f = Self::quarter() * (mean * secant2 * secant2) / self.surface.masked_cosines(wi, wo);
         // At the very horizon the mean is 0 and the secant may be infinite.
         let f = if mean == M::Scalar::ZERO { mean } else { f };
-        self.fresnel.reflectance(M::Scalar::HALF * half.length).scaled(half.select(f))
+        self.fresnel.reflectance(half.cosine()).scaled(half.select(f))
     }
 }
 
@@ -230,9 +227,9 @@ where
     #[must_use]
     pub fn pdf(&self, wi: Vec3<N>, wo: Vec3<N>) -> N::Scalar {
         let half = Half::<N::Scalar>::new(wi.into(), wo.into());
-        let (wo_wm, wm_z) = (N::Scalar::HALF * half.length, half.h[2] / half.length);
-        let density = self.sampling.density_over_d(self.surface.sigma_above(wo), wo_wm, wm_z);
-        let of_normals = half.select(self.surface.d_along(half.h.into()) * density);
+        let wo_h = N::Scalar::HALF * half.length2;
+        let per_d = self.sampling.density_over_d(self.surface.sigma_above(wo), wo_h, half.h[2]);
+        let of_normals = half.select(self.surface.d_along_times(half.h.into(), per_d));
         match self.sampling.constant_density() {
             None => of_normals,
             Some(constant) => of_normals + if half.above { constant } else { N::Scalar::ZERO },
@@ -250,37 +247,45 @@ where
     #[inline(always)]
     #[must_use]
     pub fn sample(&self, wo: Vec3<N>, u: Vec2<N>) -> Option<Sample<N::Scalar, F::Output>> {
-        let (up, sample) = self.reflected_by(wo, self.sampling.sample(&self.surface, wo, u));
+        let (up, sample) = self.reflected_by(wo, self.sampling.sample_along(&self.surface, wo, u));
         if up { Some(sample) } else { None }
     }
 
-    /// The sample of a normal, with weight and density 0 in place of `None`, and a wi of no meaning.
+    /// The sample of a normal, given by a vector along it, with weight and density 0 in place of `None`, and a wi of no
+    /// meaning.
     #[inline(always)]
-    pub(crate) fn reflected_or_nothing(&self, wo: Vec3<N>, wm: Vec3<N>) -> Sample<N::Scalar, F::Output> {
-        let (up, Sample { wi, weight, pdf }) = self.reflected_by(wo, wm);
+    pub(crate) fn reflected_or_nothing(&self, wo: Vec3<N>, m: Vec3<N>) -> Sample<N::Scalar, F::Output> {
+        let (up, Sample { wi, weight, pdf }) = self.reflected_by(wo, m);
         let select = |value| if up { value } else { N::Scalar::ZERO };
         Sample { wi, weight: weight.map(select), pdf: select(pdf) }
     }
 
-    /// Whether wm reflects anything, and the sample, which is meaningless where it does not.
+    /// Whether the normal along m reflects anything, and the sample, which is meaningless where it does not.
+    ///
+    /// The mirror image is 2 (wo·m)/|m|² m − wo: a normalised m would be waited for.
     #[inline(always)]
-    fn reflected_by(&self, wo: Vec3<N>, wm: Vec3<N>) -> (bool, Sample<N::Scalar, F::Output>) {
+    fn reflected_by(&self, wo: Vec3<N>, along: Vec3<N>) -> (bool, Sample<N::Scalar, F::Output>) {
         let o: [N::Scalar; 3] = wo.into();
-        let m: [N::Scalar; 3] = wm.into();
-        let wo_wm = dot(o, m);
-        let wi = reflected::<N::Scalar>(wo, wm);
-        let i: [N::Scalar; 3] = wi.into();
-        let up = o[2] > N::Scalar::ZERO && i[2] > N::Scalar::ZERO && wo_wm > N::Scalar::ZERO;
-        let of_normals = self.sampling.density_over_d(self.surface.sigma_above(wo), wo_wm, m[2]);
-        let (d, masked) = (self.surface.d(wm), self.masked_cosines(wi, wo));
+        let m: [N::Scalar; 3] = along.into();
+        let wo_m = dot(o, m);
+        let factor = (wo_m + wo_m) / dot(m, m);
+        let i = [factor * m[0] - o[0], factor * m[1] - o[1], factor * m[2] - o[2]];
+        let up = o[2] > N::Scalar::ZERO && i[2] > N::Scalar::ZERO && wo_m > N::Scalar::ZERO;
+        let per_d = self.sampling.density_over_d(self.surface.sigma_above(wo), wo_m, m[2]);
+        let masked = self.surface.masked_cosines(i.into(), wo);
         let (pdf, weight) = match self.sampling.constant_density() {
-            None => (d * of_normals, Self::quarter() * i[2] / (of_normals * masked)),
+            None => (
+                self.surface.d_along_times(along, per_d),
+                Self::quarter() * i[2] * per_d[1] / (per_d[0] * masked),
+            ),
             Some(constant) => {
-                let pdf = d * of_normals + constant;
+                let d = self.surface.d_along(along);
+                let pdf = d * per_d[0] / per_d[1] + constant;
                 // D/pdf first: neither it nor what it multiplies leaves the range of the scalar.
                 (pdf, Self::quarter() * i[2] * (d / pdf) / masked)
             }
         };
-        (up, Sample { wi, weight: self.fresnel.reflectance(wo_wm).scaled(weight), pdf })
+        let cos = (N::Scalar::HALF * factor * wo_m).sqrt();
+        (up, Sample { wi: i.into(), weight: self.fresnel.reflectance(cos).scaled(weight), pdf })
     }
 }

@@ -155,20 +155,26 @@ impl<N: Ndf, S: NormalSampling<N>> NormalSampling<N> for UniformMixture<S, N::Sc
     }
 
     #[inline(always)]
-    fn usual_sample(
+    fn sample_along(&self, surface: &N, wo: Vec3<N>, u: Vec2<N>) -> Vec3<N> {
+        self.or_uniform(wo, u, self.other.sample_along(surface, wo, self.of_other(u)))
+    }
+
+    #[inline(always)]
+    fn usual_sample_along(
         &self,
         surface: &N,
         wo: Vec3<N>,
         u: Vec2<N>,
         slopes: Slopes<'_, N::Scalar>,
     ) -> (Vec3<N>, bool) {
-        let (m, usual) = self.other.usual_sample(surface, wo, self.of_other(u), slopes);
+        let (m, usual) = self.other.usual_sample_along(surface, wo, self.of_other(u), slopes);
         (self.or_uniform(wo, u, m), usual)
     }
 
     #[inline(always)]
-    fn density_over_d(&self, sigma_o: N::Scalar, wo_wm: N::Scalar, wm_z: N::Scalar) -> N::Scalar {
-        self.rest * self.other.density_over_d(sigma_o, wo_wm, wm_z)
+    fn density_over_d(&self, sigma_o: N::Scalar, wo_m: N::Scalar, m_z: N::Scalar) -> [N::Scalar; 2] {
+        let [numerator, denominator] = self.other.density_over_d(sigma_o, wo_m, m_z);
+        [self.rest * numerator, denominator]
     }
 
     #[inline(always)]

@@ -22,24 +22,32 @@ pub trait NormalSampling<N: Ndf> {
     /// A unit normal for the direction `wo`, from u ∈ [0, 1)².
     fn sample(&self, surface: &N, wo: Vec3<N>, u: Vec2<N>) -> Vec3<N>;
 
-    /// See [`SampleVndf::usual_vndf_sample`].
+    /// See [`SampleVndf::sample_along`].
     #[doc(hidden)]
     #[inline(always)]
-    fn usual_sample(
+    fn sample_along(&self, surface: &N, wo: Vec3<N>, u: Vec2<N>) -> Vec3<N> {
+        self.sample(surface, wo, u)
+    }
+
+    /// See [`SampleVndf::usual_sample_along`].
+    #[doc(hidden)]
+    #[inline(always)]
+    fn usual_sample_along(
         &self,
         surface: &N,
         wo: Vec3<N>,
         u: Vec2<N>,
         _slopes: Slopes<'_, N::Scalar>,
     ) -> (Vec3<N>, bool) {
-        (self.sample(surface, wo, u), true)
+        (self.sample_along(surface, wo, u), true)
     }
 
-    /// The density of directions reflected by normals in proportion to D, over D(wm): p(wm)/(4 (wo·wm) D(wm)).
+    /// The density of directions reflected by normals in proportion to D, over D(wm): p(wm)/(4 (wo·wm) D(wm)), as a
+    /// fraction, numerator and denominator, so that whoever divides by more divides once.
     ///
     /// # Domain
-    /// The cosines `wo_wm` = wo·wm and `wm_z` = wm.z are positive; `sigma_o` = σ(wo).
-    fn density_over_d(&self, sigma_o: N::Scalar, wo_wm: N::Scalar, wm_z: N::Scalar) -> N::Scalar;
+    /// `wo_m` = wo·m and `m_z` = m.z are positive, of a vector m of any length along wm; `sigma_o` = σ(wo).
+    fn density_over_d(&self, sigma_o: N::Scalar, wo_m: N::Scalar, m_z: N::Scalar) -> [N::Scalar; 2];
 
     /// The part of the density that is the same for every direction above the horizon, 1/sr; above 0, and `None` where
     /// there is none, which the compiler should see.
@@ -75,19 +83,24 @@ impl<N: SampleVndf> NormalSampling<N> for VisibleNormals {
     }
 
     #[inline(always)]
-    fn usual_sample(
+    fn sample_along(&self, surface: &N, wo: Vec3<N>, u: Vec2<N>) -> Vec3<N> {
+        surface.sample_along(wo, u)
+    }
+
+    #[inline(always)]
+    fn usual_sample_along(
         &self,
         surface: &N,
         wo: Vec3<N>,
         u: Vec2<N>,
         slopes: Slopes<'_, N::Scalar>,
     ) -> (Vec3<N>, bool) {
-        surface.usual_vndf_sample(wo, u, slopes)
+        surface.usual_sample_along(wo, u, slopes)
     }
 
     #[inline(always)]
-    fn density_over_d(&self, sigma_o: N::Scalar, _: N::Scalar, _: N::Scalar) -> N::Scalar {
-        N::Scalar::lit(0.25) / sigma_o
+    fn density_over_d(&self, sigma_o: N::Scalar, _: N::Scalar, _: N::Scalar) -> [N::Scalar; 2] {
+        [N::Scalar::ONE, N::Scalar::lit(4.0) * sigma_o]
     }
 }
 
@@ -98,7 +111,7 @@ impl<N: SampleNdf> NormalSampling<N> for AllNormals {
     }
 
     #[inline(always)]
-    fn density_over_d(&self, _: N::Scalar, wo_wm: N::Scalar, wm_z: N::Scalar) -> N::Scalar {
-        N::Scalar::lit(0.25) * wm_z / wo_wm
+    fn density_over_d(&self, _: N::Scalar, wo_m: N::Scalar, m_z: N::Scalar) -> [N::Scalar; 2] {
+        [m_z, N::Scalar::lit(4.0) * wo_m]
     }
 }

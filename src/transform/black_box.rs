@@ -3,7 +3,7 @@
 use crate::Real;
 use crate::error::Error;
 use crate::map::invertible;
-use crate::microsurface::{normalized_in_view, turned_into_view};
+use crate::microsurface::{in_view, turned_into_view};
 use crate::ndf::{Course, Ndf, SampleNdf, SampleVndf, Slopes, Vec2, Vec3};
 use crate::vector::{dot, normalized};
 
@@ -200,19 +200,29 @@ impl<N: SampleVndf> SampleVndf for Transformed<N> {
 
     #[inline(always)]
     fn sample_vndf(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self> {
+        self.sample_of_along(self.sample_along(w, u))
+    }
+
+    #[inline(always)]
+    fn sample_along(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self> {
         let m = self.ndf.sample_vndf(self.pulled_direction(w).0, u);
         turned_into_view(w.into(), self.pushed_normal(m)).into()
     }
 
     #[inline(always)]
-    fn usual_vndf_sample(
+    fn usual_sample_along(
         &self,
         w: Vec3<Self>,
         u: Vec2<Self>,
         slopes: Slopes<'_, N::Scalar>,
     ) -> (Vec3<Self>, bool) {
-        let (m, usual) = self.ndf.usual_vndf_sample(self.pulled_direction(w).0, u, slopes);
-        let (m, in_view) = normalized_in_view(w.into(), self.pushed_normal(m));
-        (m.into(), usual && in_view)
+        let (m, usual) = self.ndf.usual_sample_along(self.pulled_direction(w).0, u, slopes);
+        let m = self.pushed_normal(self.ndf.sample_of_along(m));
+        (m.into(), usual && in_view(w.into(), m))
+    }
+
+    #[inline(always)]
+    fn sample_of_along(&self, along: Vec3<Self>) -> Vec3<Self> {
+        normalized(along.into()).into()
     }
 }

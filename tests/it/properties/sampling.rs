@@ -129,6 +129,7 @@ where
             near("pdf of the sample and of wi", sample.pdf, pdf, 2.0 * roundings)?;
         }
         if length.to_f64() > 1e-3
+            && brdf.surface().d_along(h.into()) > T::MIN_POSITIVE
             && f > T::MIN_POSITIVE
             && f < T::MAX
             && pdf > T::MIN_POSITIVE
