@@ -168,10 +168,11 @@ pub trait Ndf {
         let (i, o, m): ([Self::Scalar; 3], [Self::Scalar; 3], _) = (wi.into(), wo.into(), wm.into());
         let (zi, zo) = (i[2], o[2]);
         let visible = step(dot(i, m)) * step(dot(o, m));
-        let (sigma_i, sigma_o) = (self.sigma_above(wi), self.sigma_above(wo));
-        let (lower, higher, of_lower, of_higher) =
-            if zo < zi { (zo, zi, sigma_o, sigma_i) } else { (zi, zo, sigma_i, sigma_o) };
-        let g2 = lower / (of_lower + lower / higher * of_higher - lower);
+        // Both cosines over the higher one; the ratio of NaN is NaN.
+        let (lower, higher) = if zo < zi { (zo, zi) } else { (zi, zo) };
+        let (one, ratio) = (Self::Scalar::ONE, lower / higher);
+        let (a, b) = if zo < zi { (one, ratio) } else { (ratio, one) };
+        let g2 = lower / ((b * self.sigma_above(wi) + a * self.sigma_above(wo)) - lower);
         // Not above 1 by rounding.
         let g2 = if g2 > Self::Scalar::ONE { Self::Scalar::ONE } else { g2 };
         if zi <= Self::Scalar::ZERO || zo <= Self::Scalar::ZERO { Self::Scalar::ZERO } else { visible * g2 }
