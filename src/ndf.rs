@@ -168,7 +168,7 @@ pub trait Ndf {
         let (i, o, m): ([Self::Scalar; 3], [Self::Scalar; 3], _) = (wi.into(), wo.into(), wm.into());
         let (zi, zo) = (i[2], o[2]);
         let visible = step(dot(i, m)) * step(dot(o, m));
-        // Both cosines over the higher one; the ratio of NaN is NaN.
+        // a and b are zi and zo over the higher of both.
         let (lower, higher) = if zo < zi { (zo, zi) } else { (zi, zo) };
         let (one, ratio) = (Self::Scalar::ONE, lower / higher);
         let (a, b) = if zo < zi { (one, ratio) } else { (ratio, one) };
@@ -305,8 +305,7 @@ pub trait SampleVndf: Ndf {
     /// A unit vector with z ≥ 0 and w·wm > 0.
     fn sample_vndf(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self>;
 
-    /// A vector along the sample, of any length, for callers who need not normalise it: of |m|² and D's arguments the
-    /// scalar has the digits.
+    /// A vector along the sample, of any length whose square is a normal number, for callers who need not normalise it.
     #[doc(hidden)]
     #[inline(always)]
     fn sample_along(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self> {

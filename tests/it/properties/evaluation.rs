@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use super::{Outcome, check, for_both_scalars, near, roundings_of_d, roundings_of_sigma, skewness};
 use crate::scalar::{Scalar, dot, unit, vec3, wide};
 use crate::strategies::{above, anywhere, pairs, strictly_above, surface};
-use crate::surfaces::{Shape, Spec, Surface};
+use crate::surfaces::{Move, Shape, Spec, Surface, Widths};
 
 for_both_scalars! {
     density_is_not_negative_and_zero_below
@@ -16,6 +16,7 @@ for_both_scalars! {
     projected_areas_of_both_sides_differ_by_the_cosine
     lambda_is_that_of_the_projected_area
     masking_is_ordered
+    masking_does_not_multiply_cosines
     reflection_is_reciprocal
     density_along_a_half_vector_is_that_of_its_direction
     slope_density_is_that_of_the_normal
@@ -99,6 +100,23 @@ fn masking_is_ordered<T: Scalar>() {
         }
         Ok(())
     });
+}
+
+/// G2 is 1/(1 + Λ(wi) + Λ(wo)) also where the product of the cosines is no number.
+fn masking_does_not_multiply_cosines<T: Scalar>() {
+    let gtr = [Shape::Gtr { alpha: 0.5, gamma: 3 }, Shape::Mixture { alpha: 0.5, gamma: 1.5 }];
+    for shape in [Shape::Ggx, Shape::Beckmann].into_iter().chain(gtr) {
+        let surface = built::<T>(&Spec::new(shape, Widths::Isotropic(0.7), Move::Stay)).expect("in range");
+        for ratio in [1.0, 1.5, 1e3, 1e6, 1e9] {
+            let z = T::lit(4096.0) * T::MIN_POSITIVE;
+            let wi: T::Vec3 = [T::ONE, T::ZERO, z].into();
+            let wo: T::Vec3 = [T::lit(-0.6), T::lit(0.8), T::lit(ratio) * z].into();
+            let normal: T::Vec3 = [T::ZERO, T::ZERO, T::ONE].into();
+            let expected = T::ONE / (T::ONE + surface.lambda(wi) + surface.lambda(wo));
+            near("G2", surface.g2(wi, wo, normal), expected, 8.0).unwrap();
+            near("G2", surface.g2(wo, wi, normal), expected, 8.0).unwrap();
+        }
+    }
 }
 
 fn reflection_is_reciprocal<T: Scalar>() {
