@@ -108,9 +108,10 @@ impl Case {
 
     /// The half vector of a sampled direction.
     fn half(&self, wi: [f64; 3]) -> [f64; 3] {
-        let h = [0, 1, 2].map(|k| wi[k] + self.wo[k]);
-        let length = (h[0] * h[0] + h[1] * h[1] + h[2] * h[2]).sqrt();
-        h.map(|c| c / length)
+        let unit = |v: [f64; 3]| v.map(|c| c / (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt());
+        // Where it is short it tilts by many times what rounding to f32 has lengthened wi by.
+        let wi = unit(wi);
+        unit([0, 1, 2].map(|k| wi[k] + self.wo[k]))
     }
 
     /// χ² of the samples of this case against a pdf; the weights are collected.
