@@ -86,15 +86,9 @@ fn roundings_of_d(spec: &Spec, m: [f64; 3], absolute: f64) -> f64 {
     }
 }
 
-/// How many roundings σ by one route is from σ by another, by the budgets of both: sums over the nodes of a mixture, and
-/// closed forms of high degree, have more.
+/// How many roundings σ by one route is from σ by another: the sum over the nodes of a mixture has more.
 fn roundings_of_sigma(spec: &Spec) -> f64 {
-    match spec.shape {
-        Shape::Gtr { gamma, .. } if gamma > 4 => 11.0,
-        Shape::Mixture { gamma, .. } if gamma > 4.0 => 11.0,
-        Shape::Gtr { .. } | Shape::Mixture { .. } => 8.0,
-        _ => 3.0,
-    }
+    if matches!(spec.shape, Shape::Mixture { .. }) { 8.0 } else { 3.0 }
 }
 
 /// How far rounding turns the stored map, in roundings of q: about half the ratio of its principal widths.

@@ -33,11 +33,7 @@ fn same<T: Scalar>(
     of_sigma: f64,
 ) -> Outcome {
     near("σ", a.sigma(w.into()), b.sigma(w.into()), of_sigma)?;
-    if of_d * T::EPSILON.to_f64() < 0.05 {
-        near("D", a.d(w.into()), b.d(w.into()), 1.5 * of_d)
-    } else {
-        Ok(())
-    }
+    if of_d * T::EPSILON.to_f64() < 0.05 { near("D", a.d(w.into()), b.d(w.into()), of_d) } else { Ok(()) }
 }
 
 fn isotropic_surfaces_have_no_azimuth<T: Scalar>() {
@@ -90,7 +86,8 @@ fn diagonal_matrices_are_axis_aligned<T: Scalar>() {
             &Microsurface::new(Beckmann, Linear::from(matrix)),
             &Microsurface::new(Beckmann, aligned),
             w,
-            roundings(Shape::Beckmann),
+            // 4.2 seen where the exponent is nearly nothing.
+            1.25 * roundings(Shape::Beckmann),
             4.0,
         )
     });
