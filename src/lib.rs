@@ -60,11 +60,20 @@
 //! | D, `d` | D | `eval` | D | D | D |
 //! | Λ, `lambda` | Lambda | – | Λ | – | – |
 //! | σ, `sigma` | – | – | cos θo/G1, §3 | – | – |
-//! | G1, `g1` | G1 | `smith_g1` | G1 | G1 | G1 |
-//! | D_w, `vndf` | D(w, wm) | `eval` with visible normals | D_ωo | – | D_v |
+//! | G1, `g1` | G1 | `smith_g1`, of GGX | G1 | G1 | G1 |
+//! | D_w, `vndf` | D(w, wm) | `pdf` with visible normals | D_ωo | – | D_v |
 //! | α, `alpha` | alpha | alpha | α | α_b, α_g | α |
 //! | A, [`RoughnessMatrix`] | – | – | – | – | – |
 //! | M | – | – | – | – | M |
+//!
+//! Who ports from one of these meets four more differences:
+//!
+//! | here | there |
+//! |---|---|
+//! | `g1` of Beckmann is exact | Mitsuba's `smith_g1` of Beckmann is [`Microsurface::g1_walter2007`], off by up to 0.003 |
+//! | `g2` is height-correlated, as in pbrt-v4 and MaterialX | `G` of Mitsuba and of adobe/openpbr-bsdf is [`Ndf::g2_separable`] |
+//! | BSDFs come without the cosine, as in pbrt | `eval` of Mitsuba and of Falcor includes it |
+//! | Λ(w) below the horizon is −1 − Λ(−w), so that G1 = 1/(1 + Λ) keeps its sign | Falcor's has the other sign |
 //!
 //! # Numbers
 //! Constructors check and return [`Error`], which names the value; there is no silent clamp ([`roughness::clamped`] is
@@ -75,7 +84,7 @@
 //! # Features
 //! - `std` (default): square roots and constructor-time functions from the standard library.
 //! - `libm`: the same from the `libm` crate. Needed without `std`; results are then the same bits on every platform.
-//! - `serde`: (de)serialisation of materials; what is read is checked as by the constructors.
+//! - `serde`: materials written and read as named tables, checked as by the constructors: module `stored`.
 
 #![no_std]
 
@@ -100,6 +109,8 @@ pub mod ndf;
 pub mod profile;
 pub mod real;
 pub mod roughness;
+#[cfg(feature = "serde")]
+pub mod stored;
 pub mod transform;
 mod vector;
 

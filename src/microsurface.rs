@@ -24,7 +24,6 @@ use crate::vector::{dot, normalized, positive_part};
 /// # Ok::<(), microsurface::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Microsurface<P, M> {
     profile: P,
     map: M,
@@ -269,4 +268,41 @@ fn turned_from_the_edge<T: Real>(w: [T; 3], m: [T; 3]) -> [T; 3] {
     let towards = [w[0], w[1], positive_part(w[2])];
     let push = push / dot(towards, towards);
     [m[0] + push * towards[0], m[1] + push * towards[1], m[2] + push * towards[2]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The edge of [`in_view`] is at w·m = 16 ε|m|, and what is nearer is turned to 8 ε of its terms.
+    fn facets_within_16_roundings_of_the_edge_are_turned<T: Real>() {
+        let w = [T::lit(0.6), T::ZERO, T::lit(0.8)];
+        for length in [1.0, 1e-6, 1e6].map(T::lit) {
+            let facet = |roundings: f64| {
+                // Across w, and this far towards it.
+                let towards = T::lit(roundings) * T::EPSILON;
+                [T::lit(-0.8) + towards * w[0], T::ZERO, T::lit(0.6) + towards * w[2]].map(|c| length * c)
+            };
+            for (roundings, seen, turns) in
+                [(24.0, true, false), (12.0, false, false), (0.0, false, true), (-4.0, false, true)]
+            {
+                let m = facet(roundings);
+                assert_eq!(in_view(w, m), seen, "{roundings}");
+                let turned = turned_into_view(w, m);
+                let facing = (dot(w, turned) / (T::EPSILON * dot(turned, turned).sqrt())).to_f64();
+                assert!(facing > 4.0 && facing < 30.0, "{facing} of {roundings}");
+                assert_eq!(turned != m, turns, "{roundings}");
+            }
+        }
+    }
+
+    #[test]
+    fn facets_within_16_roundings_of_the_edge_are_turned_f32() {
+        facets_within_16_roundings_of_the_edge_are_turned::<f32>();
+    }
+
+    #[test]
+    fn facets_within_16_roundings_of_the_edge_are_turned_f64() {
+        facets_within_16_roundings_of_the_edge_are_turned::<f64>();
+    }
 }

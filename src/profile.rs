@@ -135,6 +135,25 @@ macro_rules! shape_invariant {
                 Ok(crate::Microsurface::new(Self, crate::map::AxisAligned::new(alpha_x, alpha_y)?))
             }
 
+            /// The distribution of slope widths α = `alpha_x` along the direction at `angle` radians from x, and
+            /// `alpha_y` across it.
+            ///
+            /// No α is squared, so every ratio of the widths is held; see
+            /// [`RoughnessMatrix::rotated`](crate::RoughnessMatrix::rotated).
+            ///
+            /// # Errors
+            /// [`Error::Alpha`](crate::Error::Alpha) unless both are within
+            /// [`alpha_range`](crate::roughness::alpha_range), [`Error::Parameter`](crate::Error::Parameter)
+            /// if the angle is not finite.
+            #[inline]
+            pub fn rotated<T: crate::Real>(
+                alpha_x: T,
+                alpha_y: T,
+                angle: T,
+            ) -> Result<crate::Microsurface<Self, crate::map::Linear<T>>, crate::Error> {
+                Ok(Self::from_roughness_matrix(crate::RoughnessMatrix::rotated(alpha_x, alpha_y, angle)?))
+            }
+
             /// The distribution of a roughness matrix A: slope widths that differ along any two directions.
             #[inline]
             #[must_use]

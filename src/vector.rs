@@ -26,3 +26,16 @@ pub(crate) fn step<T: Real>(x: T) -> T {
 pub(crate) fn positive_part<T: Real>(x: T) -> T {
     if x <= T::ZERO { T::ZERO } else { x }
 }
+
+/// u, or the largest number below 1 where a generator rounded to 1; NaN stays NaN.
+#[inline(always)]
+pub(crate) fn below_one<T: Real>(u: T) -> T {
+    let last = T::ONE - T::HALF * T::EPSILON;
+    if u > last { last } else { u }
+}
+
+/// σ of the direction w, or w.z where rounding left it below: the facets seen are no fewer than a plane's.
+#[inline(always)]
+pub(crate) fn at_least_cosine<T: Real>([_, _, z]: [T; 3], sigma: T) -> T {
+    if sigma < z { z } else { sigma }
+}

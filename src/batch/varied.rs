@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::map::{AxisAligned, Isotropic, Linear, Map};
 use crate::microsurface::Microsurface;
 use crate::profile::ShapeInvariant;
-use crate::roughness::{RoughnessMatrix, alpha_range};
+use crate::roughness::{RoughnessMatrix, alpha_range, mirror_alpha};
 
 /// One material, varied by numbers of each element: the structure of arrays of a textured or filtered material.
 ///
@@ -163,33 +163,60 @@ fn check_alphas<T: Real>(alphas: &[T]) -> Result<(), Error> {
 }
 
 /// A width α for each element.
+///
+/// # Example
+/// A texture that holds 0 is a mirror there.
+/// ```
+/// use microsurface::batch::{Alphas, Directions, NdfBatch, Varied};
+/// use microsurface::{Ggx, Ndf, glam::Vec3, roughness::mirror_alpha};
+/// let (surface, texels) = (Ggx::isotropic(0.2_f32)?, [0.0, 0.4]);
+/// assert!(Alphas::new(&texels).is_err());
+/// let mut d = [0.0; 2];
+/// let up = Directions { x: &[0.0; 2], y: &[0.0; 2], z: &[1.0; 2] };
+/// Varied::new(&surface, Alphas::clamped(&texels)).d_batch(up, &mut d);
+/// assert_eq!(d, [mirror_alpha(), 0.4].map(|alpha| Ggx::isotropic(alpha).unwrap().d(Vec3::Z)));
+/// # Ok::<(), microsurface::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Alphas<'a, T> {
     alpha: &'a [T],
+    smallest: T,
+}
+
+/// `alpha` from `smallest` on; NaN becomes `smallest`.
+#[inline(always)]
+fn limited<T: Real>(alpha: T, smallest: T) -> T {
+    alpha.max(smallest).min(alpha_range::<T>().1)
 }
 
 impl<'a, T: Real> Alphas<'a, T> {
     /// These widths.
     ///
     /// # Errors
-    /// [`Error::Alpha`] with the first that is not within [`alpha_range`]; see
-    /// [`clamped`](crate::roughness::clamped) for textures that hold 0.
+    /// [`Error::Alpha`] with the first that is not within [`alpha_range`]; textures that hold 0 want
+    /// [`clamped`](Self::clamped).
     pub fn new(alpha: &'a [T]) -> Result<Self, Error> {
         check_alphas(alpha)?;
-        Ok(Self { alpha })
+        Ok(Self { alpha, smallest: alpha_range().0 })
+    }
+
+    /// These widths, each [`roughness::clamped`](crate::roughness::clamped).
+    #[must_use]
+    pub fn clamped(alpha: &'a [T]) -> Self {
+        Self { alpha, smallest: mirror_alpha() }
     }
 }
 
 impl<P: ShapeInvariant, M: Copy, T: Real> Variation<Microsurface<P, M>> for Alphas<'_, T> {
     type Surface = Microsurface<P, Isotropic<T>>;
-    type Prepared = P;
+    type Prepared = (P, T);
     #[inline(always)]
-    fn prepared(&self, surface: &Microsurface<P, M>) -> P {
-        *surface.profile()
+    fn prepared(&self, surface: &Microsurface<P, M>) -> Self::Prepared {
+        (*surface.profile(), self.smallest)
     }
     #[inline(always)]
-    fn varied(&profile: &P, alpha: T) -> Self::Surface {
-        Microsurface::new(profile, Isotropic::of_checked(alpha))
+    fn varied(&(profile, smallest): &Self::Prepared, alpha: T) -> Self::Surface {
+        Microsurface::new(profile, Isotropic::of_checked(limited(alpha, smallest)))
     }
 }
 
@@ -198,6 +225,7 @@ impl<P: ShapeInvariant, M: Copy, T: Real> Variation<Microsurface<P, M>> for Alph
 pub struct AlphaPairs<'a, T> {
     x: &'a [T],
     y: &'a [T],
+    smallest: T,
 }
 
 impl<'a, T: Real> AlphaPairs<'a, T> {
@@ -208,19 +236,26 @@ impl<'a, T: Real> AlphaPairs<'a, T> {
     pub fn new(x: &'a [T], y: &'a [T]) -> Result<Self, Error> {
         check_alphas(x)?;
         check_alphas(y)?;
-        Ok(Self { x, y })
+        Ok(Self { x, y, smallest: alpha_range().0 })
+    }
+
+    /// These widths, each [`roughness::clamped`](crate::roughness::clamped).
+    #[must_use]
+    pub fn clamped(x: &'a [T], y: &'a [T]) -> Self {
+        Self { x, y, smallest: mirror_alpha() }
     }
 }
 
 impl<P: ShapeInvariant, M: Copy, T: Real> Variation<Microsurface<P, M>> for AlphaPairs<'_, T> {
     type Surface = Microsurface<P, AxisAligned<T>>;
-    type Prepared = P;
+    type Prepared = (P, T);
     #[inline(always)]
-    fn prepared(&self, surface: &Microsurface<P, M>) -> P {
-        *surface.profile()
+    fn prepared(&self, surface: &Microsurface<P, M>) -> Self::Prepared {
+        (*surface.profile(), self.smallest)
     }
     #[inline(always)]
-    fn varied(&profile: &P, [x, y]: [T; 2]) -> Self::Surface {
+    fn varied(&(profile, smallest): &Self::Prepared, alphas: [T; 2]) -> Self::Surface {
+        let [x, y] = alphas.map(|alpha| limited(alpha, smallest));
         Microsurface::new(profile, AxisAligned::of_checked(x, y))
     }
 }
@@ -256,8 +291,8 @@ impl<P: ShapeInvariant, M: Map> Variation<Microsurface<P, M>> for RoughnessMatri
         *surface.profile()
     }
     #[inline(always)]
-    fn varied(&profile: &P, [xx, xy, yy]: [M::Scalar; 3]) -> Self::Surface {
-        Microsurface::new(profile, RoughnessMatrix::of_checked(xx, xy, yy).into())
+    fn varied(&profile: &P, entries: [M::Scalar; 3]) -> Self::Surface {
+        Microsurface::new(profile, RoughnessMatrix::of_checked(entries).into())
     }
 }
 

@@ -16,6 +16,11 @@ use crate::vector::dot;
 /// f = F D G2/(4 zi zo), evaluated as F D/(4 (zo σ(wi) + zi σ(wo) − zi zo)), which has no cosine in a
 /// denominator, with D of the half vector wi + wo, which is not normalised (see [`Ndf::d_along`]).
 ///
+/// # Domain
+/// Unit vectors. The cosine between either direction and the half vector is ½|wi + wo| for those alone:
+/// the cosines of wi and of wo differ by 2 (|wi|² − |wo|²)/|wi + wo|² of it otherwise, which matters where
+/// wi ≈ −wo.
+///
 /// # Special cases
 /// A direction at or below the horizon → f = pdf = 0 and no sample. Where |wi + wo|² < 2⁻⁶⁴ (f32) or 2⁻⁵¹² (f64),
 /// which unit vectors above the horizon reach only within 3e-10 (f32) of it and opposite to each other → 0. f itself
@@ -37,7 +42,6 @@ use crate::vector::dot;
 /// # References
 /// Torrance and Sparrow 1967; Walter, Marschner, Li and Torrance 2007, Eq. 20; Heitz 2014.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RoughConductor<N, F, S = VisibleNormals> {
     surface: N,
     fresnel: F,
@@ -239,7 +243,7 @@ where
     /// A direction to the light for the viewer `wo`, from two random numbers.
     ///
     /// The weight F zi σ(wo)/(zo σ(wi) + zi σ(wo) − zi zo) of visible normals contains neither D nor a division by
-    /// a cosine and is at most F.
+    /// a cosine. It is at most F, to a rounding: (1 + 2ε) F is the largest found.
     ///
     /// # Returns
     /// `None` where nothing is reflected: `wo` at or below the horizon, or a normal that reflects below it, whose

@@ -6,7 +6,7 @@ use crate::elementary::sin_cos_of_turn;
 use crate::error::Error;
 use crate::ndf::{Course, Ndf, Slopes, Vec2, Vec3};
 use crate::roughness::checked;
-use crate::vector::normalized;
+use crate::vector::{below_one, normalized};
 
 /// With probability p a direction uniform on the hemisphere, otherwise one reflected by a normal of `S`.
 ///
@@ -53,18 +53,6 @@ use crate::vector::normalized;
 /// # References
 /// Atanasov, Koylazov, Dimov and Wilkie 2022, Appendix B, which does not print its p; Veach and Guibas 1995.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(try_from = "stored::UniformMixture<S, T>", into = "stored::UniformMixture<S, T>")
-)]
-#[cfg_attr(
-    feature = "serde",
-    serde(bound(
-        serialize = "S: Clone + serde::Serialize, T: Real + serde::Serialize",
-        deserialize = "S: serde::Deserialize<'de>, T: Real + serde::Deserialize<'de>"
-    ))
-)]
 pub struct UniformMixture<S, T> {
     other: S,
     /// p and 1 − p, which add up to 1 exactly.
@@ -115,6 +103,7 @@ impl<S, T: Real> UniformMixture<S, T> {
     #[inline(always)]
     fn or_uniform(&self, wo: T::Vec3, u: T::Vec2, m: T::Vec3) -> T::Vec3 {
         let [u1, u2]: [T; 2] = u.into();
+        let u1 = below_one(u1);
         let z = (T::ONE - u1) / self.uniform;
         let radius = ((T::ONE - z) * (T::ONE + z)).sqrt();
         let (sin, cos) = sin_cos_of_turn(u2);
@@ -185,29 +174,5 @@ impl<N: Ndf, S: NormalSampling<N>> NormalSampling<N> for UniformMixture<S, N::Sc
         };
         // Without it, D may leave the weight, which would be 0/0 where D has underflowed.
         (density > N::Scalar::ZERO).then_some(density)
-    }
-}
-
-#[cfg(feature = "serde")]
-mod stored {
-    //! What is serialised: the numbers given, so that deserialising checks them again.
-    use super::Real;
-    use crate::error::Error;
-
-    #[derive(serde::Serialize, serde::Deserialize)]
-    pub(super) struct UniformMixture<S, T> {
-        other: S,
-        probability: T,
-    }
-    impl<S, T: Real> From<super::UniformMixture<S, T>> for UniformMixture<S, T> {
-        fn from(mixture: super::UniformMixture<S, T>) -> Self {
-            Self { probability: mixture.uniform, other: mixture.other }
-        }
-    }
-    impl<S, T: Real> TryFrom<UniformMixture<S, T>> for super::UniformMixture<S, T> {
-        type Error = Error;
-        fn try_from(mixture: UniformMixture<S, T>) -> Result<Self, Error> {
-            Self::new(mixture.other, mixture.probability)
-        }
     }
 }

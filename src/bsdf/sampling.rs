@@ -57,9 +57,9 @@ pub trait NormalSampling<N: Ndf> {
     }
 }
 
-/// The normals visible from the viewer, of density D_w: the sample's weight never exceeds the reflectance.
+/// The normals visible from the viewer, of density D_w: the sample's weight exceeds the reflectance by rounding
+/// alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct VisibleNormals;
 
 /// All normals, of density D(wm) wm.z, visible or not: for distributions whose visible normals cannot be drawn.
@@ -68,7 +68,6 @@ pub struct VisibleNormals;
 /// ∞ where the cosine wo·wm is smaller than D over the largest number of the scalar.
 /// [`UniformMixture`](crate::bsdf::UniformMixture) bounds the weights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct AllNormals;
 
 impl<N: SampleVndf> NormalSampling<N> for VisibleNormals {

@@ -7,15 +7,6 @@ use crate::roughness::checked;
 
 /// M = diag(1/αx, 1/αy): two numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "stored::AxisAligned<T>", into = "stored::AxisAligned<T>"))]
-#[cfg_attr(
-    feature = "serde",
-    serde(bound(
-        serialize = "T: Real + serde::Serialize",
-        deserialize = "T: Real + serde::Deserialize<'de>"
-    ))
-)]
 pub struct AxisAligned<T> {
     alpha_x: T,
     alpha_y: T,
@@ -114,29 +105,5 @@ impl<T: Real> Map for AxisAligned<T> {
     #[inline]
     fn stretched(&self, scale_x: T, scale_y: T) -> Result<Self, Error> {
         Self::of_map(self.alpha_x / scale_x, self.alpha_y / scale_y)
-    }
-}
-
-#[cfg(feature = "serde")]
-mod stored {
-    //! What is serialised: the numbers given, so that deserialising checks them again.
-    use super::Real;
-    use crate::error::Error;
-
-    #[derive(serde::Serialize, serde::Deserialize)]
-    pub(super) struct AxisAligned<T> {
-        alpha_x: T,
-        alpha_y: T,
-    }
-    impl<T: Real> From<super::AxisAligned<T>> for AxisAligned<T> {
-        fn from(map: super::AxisAligned<T>) -> Self {
-            Self { alpha_x: map.alpha_x, alpha_y: map.alpha_y }
-        }
-    }
-    impl<T: Real> TryFrom<AxisAligned<T>> for super::AxisAligned<T> {
-        type Error = Error;
-        fn try_from(map: AxisAligned<T>) -> Result<Self, Error> {
-            Self::new(map.alpha_x, map.alpha_y)
-        }
     }
 }

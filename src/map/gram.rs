@@ -14,6 +14,19 @@ pub(crate) struct Gram {
 }
 
 impl Gram {
+    /// RᵀR of the upper triangular R = [[r11, r12], [0, r22]].
+    #[inline(always)]
+    pub(crate) fn of_factor([r11, r12, r22]: [f64; 3]) -> Self {
+        Self { xx: r11 * r11, xy: r11 * r12, yy: r12 * r12 + r22 * r22, root: (r11 * r22).abs() }
+    }
+
+    /// Cholesky's factor [r11, r12, r22].
+    #[inline(always)]
+    pub(crate) fn factor(&self) -> [f64; 3] {
+        let r11 = Real::sqrt(self.xx);
+        [r11, self.xy / r11, self.root / r11]
+    }
+
     /// The larger and the smaller principal α: the roots of the eigenvalues.
     pub(crate) fn principal(&self) -> [f64; 2] {
         let half_difference = 0.5 * (self.xx - self.yy);
@@ -28,8 +41,9 @@ impl Gram {
         let (smallest, largest) = crate::roughness::alpha_range::<T>();
         // The trace is between the larger α² and twice that: nearly always it tells without a root.
         let (small, large) = (smallest.to_f64(), largest.to_f64());
-        let trace = self.xx + self.yy;
-        if trace <= large * large && self.root * self.root >= small * small * trace && trace > 0.0 {
+        let (trace, least) = (self.xx + self.yy, small * small);
+        // The root is the product of both α: nothing below underflows where it is above the least.
+        if trace <= large * large && self.root >= least && self.root * self.root >= least * trace {
             return true;
         }
         let [alpha_max, alpha_min] = self.principal();

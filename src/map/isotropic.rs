@@ -8,15 +8,6 @@ use crate::roughness::checked;
 
 /// M = I/α: one number. Nothing directional is computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "stored::Isotropic<T>", into = "stored::Isotropic<T>"))]
-#[cfg_attr(
-    feature = "serde",
-    serde(bound(
-        serialize = "T: Real + serde::Serialize",
-        deserialize = "T: Real + serde::Deserialize<'de>"
-    ))
-)]
 pub struct Isotropic<T> {
     alpha: T,
     alpha2: T,
@@ -104,28 +95,5 @@ impl<T: Real> Map for Isotropic<T> {
     #[inline]
     fn stretched(&self, scale_x: T, scale_y: T) -> Result<AxisAligned<T>, Error> {
         AxisAligned::of_map(self.alpha / scale_x, self.alpha / scale_y)
-    }
-}
-
-#[cfg(feature = "serde")]
-mod stored {
-    //! What is serialised: the numbers given, so that deserialising checks them again.
-    use super::Real;
-    use crate::error::Error;
-
-    #[derive(serde::Serialize, serde::Deserialize)]
-    pub(super) struct Isotropic<T> {
-        alpha: T,
-    }
-    impl<T: Real> From<super::Isotropic<T>> for Isotropic<T> {
-        fn from(map: super::Isotropic<T>) -> Self {
-            Self { alpha: map.alpha }
-        }
-    }
-    impl<T: Real> TryFrom<Isotropic<T>> for super::Isotropic<T> {
-        type Error = Error;
-        fn try_from(map: Isotropic<T>) -> Result<Self, Error> {
-            Self::new(map.alpha)
-        }
     }
 }

@@ -13,15 +13,6 @@ use crate::roughness::RoughnessMatrix;
 /// for the difference in Mᵀm: with κ the ratio of the principal α, D of a given matrix is relatively uncertain by
 /// about κ ε in the direction of the smaller α. Ratios of 1/ε and more (8e6 for f32) build, and are meaningless.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "stored::Linear<T>", into = "stored::Linear<T>"))]
-#[cfg_attr(
-    feature = "serde",
-    serde(bound(
-        serialize = "T: Real + serde::Serialize",
-        deserialize = "T: Real + serde::Deserialize<'de>"
-    ))
-)]
 pub struct Linear<T> {
     r11: T,
     r12: T,
@@ -55,15 +46,13 @@ impl<T: Real> Linear<T> {
 
     /// The map of a positive definite RᵀR: Cholesky's factor.
     #[inline(always)]
-    pub(crate) fn triangular(Gram { xx, xy, root, .. }: Gram) -> Self {
-        let r11 = Real::sqrt(xx);
-        let [r11, r12, r22] = [r11, xy / r11, root / r11].map(T::lit);
-        Self::stored(r11, r12, r22)
+    pub(crate) fn triangular(gram: Gram) -> Self {
+        Self::of_factor(gram.factor().map(T::lit))
     }
 
-    /// What follows from the three stored numbers, rounded once.
+    /// The map of a triangular R with a positive diagonal; what follows from it is rounded once.
     #[inline(always)]
-    fn stored(r11: T, r12: T, r22: T) -> Self {
+    fn of_factor([r11, r12, r22]: [T; 3]) -> Self {
         let [a, b, d] = [r11, r12, r22].map(T::to_f64);
         let root = Real::sqrt(a * d);
         Self {
@@ -111,7 +100,7 @@ pub(crate) fn moved<M: Map>(map: &M, matrix: <M::Scalar as Real>::Mat2) -> Resul
 impl<T: Real> From<RoughnessMatrix<T>> for Linear<T> {
     #[inline]
     fn from(matrix: RoughnessMatrix<T>) -> Self {
-        Self::triangular(matrix.gram())
+        Self::of_factor(matrix.factor())
     }
 }
 
@@ -170,32 +159,5 @@ impl<T: Real> Map for Linear<T> {
     #[inline]
     fn stretched(&self, scale_x: T, scale_y: T) -> Result<Self, Error> {
         Self::from_inverse([[self.r11 / scale_x, self.r12 / scale_y], [T::ZERO, self.r22 / scale_y]])
-    }
-}
-
-#[cfg(feature = "serde")]
-mod stored {
-    //! What is serialised: the numbers given, so that deserialising checks them again.
-    use super::Real;
-    use crate::error::Error;
-
-    #[derive(serde::Serialize, serde::Deserialize)]
-    pub(super) struct Linear<T> {
-        r11: T,
-        r12: T,
-        r22: T,
-    }
-    impl<T: Real> From<super::Linear<T>> for Linear<T> {
-        fn from(map: super::Linear<T>) -> Self {
-            Self { r11: map.r11, r12: map.r12, r22: map.r22 }
-        }
-    }
-    impl<T: Real> TryFrom<Linear<T>> for super::Linear<T> {
-        type Error = Error;
-        fn try_from(map: Linear<T>) -> Result<Self, Error> {
-            // Checks, then keeps the three numbers as they were: a round trip changes no bit.
-            Self::from_inverse([[map.r11, map.r12], [T::ZERO, map.r22]])?;
-            Ok(Self::stored(map.r11.abs(), map.r12, map.r22.abs()))
-        }
     }
 }

@@ -13,6 +13,7 @@ use crate::microsurface::Microsurface;
 use crate::ndf::{Course, Slopes, Vec3};
 use crate::profile::{Profile, SampleProfile, SampleVisibleProfile, shape_invariant};
 use crate::real::converted;
+use crate::vector::below_one;
 
 /// Beckmann slopes: D = exp(−(wm.x²/αx² + wm.y²/αy²)/wm.z²)/(π αx αy wm.z⁴).
 ///
@@ -48,7 +49,6 @@ use crate::real::converted;
 /// # References
 /// Beckmann and Spizzichino 1963; Smith 1967; Walter, Marschner, Li and Torrance 2007, Eq. 25; Heitz 2014, §5.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Beckmann;
 
 shape_invariant!(Beckmann);
@@ -108,7 +108,7 @@ impl<T: Real> SampleProfile<T> for Beckmann {
     #[inline(always)]
     fn sample_d(&self, [u1, u2]: [T; 2]) -> [T; 3] {
         let (sin, cos) = sin_cos_of_turn(u2);
-        let radius = (-ln_1p(-u1)).sqrt();
+        let radius = (-ln_1p(-below_one(u1))).sqrt();
         [radius * cos, radius * sin, T::ONE]
     }
 }
@@ -165,11 +165,20 @@ fn cotangent<I: Inversion<T>, T: Real>(z: T, s: T) -> I::Wide {
     converted::<T, I::Wide>(z) / converted(s)
 }
 
+/// The root of the smallest normal number.
+#[inline(always)]
+fn shortest<T: Real>() -> T {
+    T::lit(if T::WIDENS { 1.0842021724855044e-19 } else { 1.4916681462400413e-154 }) // 2⁻⁶³, 2⁻⁵¹¹
+}
+
 /// The normal with these slopes along and across the view v, whose horizontal part has the length s.
 #[inline(always)]
 fn facet<T: Real>(v: [T; 3], s: T, [u1, u2]: [T; 2], [along, across]: [T; 2]) -> [T; 3] {
     let inverse = T::ONE / s;
-    let [along_x, along_y] = if s > T::ZERO { [v[0] * inverse, v[1] * inverse] } else { [T::ONE, T::ZERO] };
+    // A length whose square is subnormal has lost its digits. The view is then vertical to every digit, and
+    // any direction is along it.
+    let has_direction = s >= shortest();
+    let [along_x, along_y] = if has_direction { [v[0] * inverse, v[1] * inverse] } else { [T::ONE, T::ZERO] };
     // The limits of the inversion would turn a NaN into a number.
     let z = T::ONE + T::ZERO * (v[0] + v[1] + v[2] + u1 + u2);
     [across * along_y - along * along_x, -(along * along_y) - across * along_x, z]
@@ -181,6 +190,9 @@ impl<M: Map> Microsurface<Beckmann, M> {
     /// 1/G1 − 1 with the G1 of [`g1_walter2007`](Self::g1_walter2007): slightly negative just below a = 1.6 and 0
     /// above, where the exact Λ falls like e^{−a²}.
     ///
+    /// # Special cases
+    /// w.z = 0 → ∞; w.z < 0 → −1 − Λ(−w), as of [`lambda`](crate::Ndf::lambda).
+    ///
     /// # Accuracy
     /// Relative error 4.6 % for a ∈ [0.1, 1], up to 91 % in [1, 1.5] and 100 % above 1.6.
     #[inline(always)]
@@ -188,15 +200,19 @@ impl<M: Map> Microsurface<Beckmann, M> {
     pub fn lambda_walter2007(&self, w: Vec3<Self>) -> M::Scalar {
         let lit = M::Scalar::lit;
         let w: [M::Scalar; 3] = w.into();
-        let a = w[2] / self.map().direction_term(w).sqrt();
+        let a = w[2].abs() / self.map().direction_term(w).sqrt();
         let lambda =
             (lit(1.0) - lit(1.259) * a + lit(0.396) * (a * a)) / (lit(3.535) * a + lit(2.181) * (a * a));
-        if a >= lit(1.6) { M::Scalar::ZERO } else { lambda }
+        let lambda = if a >= lit(1.6) { M::Scalar::ZERO } else { lambda };
+        if w[2] < M::Scalar::ZERO { -M::Scalar::ONE - lambda } else { lambda }
     }
 
     /// Walter's rational approximation of the masking G1(w) of facets that face w.
     ///
     /// (3.535 a + 2.181 a²)/(1 + 2.276 a + 2.577 a²) below a = 1.6, 1 above.
+    ///
+    /// # Special cases
+    /// w.z ≤ 0 → 0, as of [`g1`](crate::Ndf::g1).
     ///
     /// # Accuracy
     /// max |ΔG1| = 3.11e-3, at a = 1.338; above 1 by up to 6.1e-5 from a = 1.548 to 1.6, where it steps down by 5.7e-5.
@@ -210,7 +226,8 @@ impl<M: Map> Microsurface<Beckmann, M> {
         let w: [M::Scalar; 3] = w.into();
         let a = w[2] / self.map().direction_term(w).sqrt();
         let g1 = (lit(3.535) * a + lit(2.181) * (a * a)) / (lit(1.0) + lit(2.276) * a + lit(2.577) * (a * a));
-        if a >= lit(1.6) { M::Scalar::ONE } else { g1 }
+        let g1 = if a >= lit(1.6) { M::Scalar::ONE } else { g1 };
+        if w[2] <= M::Scalar::ZERO { M::Scalar::ZERO } else { g1 }
     }
 }
 

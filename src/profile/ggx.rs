@@ -5,6 +5,7 @@ use crate::elementary::sin_cos_of_turn;
 use crate::map::Map;
 use crate::ndf::{Slopes, cosine_scale};
 use crate::profile::{Profile, SampleProfile, SampleVisibleProfile, shape_invariant};
+use crate::vector::below_one;
 
 /// GGX (Trowbridge–Reitz) slopes: D = 1/(π αx αy (wm.x²/αx² + wm.y²/αy² + wm.z²)²).
 ///
@@ -35,7 +36,6 @@ use crate::profile::{Profile, SampleProfile, SampleVisibleProfile, shape_invaria
 /// Trowbridge and Reitz 1975; Walter, Marschner, Li and Torrance 2007, Eq. 33; Heitz 2014; visible normals by
 /// spherical caps: Dupuy and Benyoub 2023, doi:10.1111/cgf.14867.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Ggx;
 
 shape_invariant!(Ggx);
@@ -82,6 +82,7 @@ impl<T: Real> SampleProfile<T> for Ggx {
     #[inline(always)]
     fn sample_d(&self, [u1, u2]: [T; 2]) -> [T; 3] {
         let (sin, cos) = sin_cos_of_turn(u2);
+        let u1 = below_one(u1);
         let radius = u1.sqrt();
         [radius * cos, radius * sin, (T::ONE - u1).sqrt()]
     }
@@ -111,6 +112,7 @@ impl<T: Real> SampleVisibleProfile<T> for Ggx {
 /// The normal on the cap of height p.
 #[inline(always)]
 fn on_cap<T: Real>([x, y, _]: [T; 3], s2: T, [u1, u2]: [T; 2], p: T) -> [T; 3] {
+    let u2 = below_one(u2);
     let height = (T::ONE - u2) * p;
     let radius = (u2 * (p * height + s2)).sqrt();
     let (sin, cos) = sin_cos_of_turn(u1);

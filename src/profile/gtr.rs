@@ -40,6 +40,7 @@ use crate::ndf::Course;
 use crate::profile::gtr::components::Components;
 use crate::profile::{Profile, SampleProfile, SampleVisibleProfile};
 use crate::roughness::checked;
+use crate::vector::below_one;
 
 /// GTR slopes with the masking of kind `K`.
 ///
@@ -61,15 +62,6 @@ use crate::roughness::checked;
 /// Burley 2012, "Physically-based shading at Disney", Appendix B; Dimov 2015; Atanasov, Koylazov, Dimov and
 /// Wilkie 2022, Eqs. 32–39.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "Parameters<T>", into = "Parameters<T>"))]
-#[cfg_attr(
-    feature = "serde",
-    serde(bound(
-        serialize = "T: Real + serde::Serialize, K: Masking<T>",
-        deserialize = "T: Real + serde::Deserialize<'de>, K: Masking<T>"
-    ))
-)]
 pub struct Gtr<T: Real, K> {
     density: Density<T>,
     masking: K,
@@ -106,7 +98,7 @@ impl<T: Real, K> Gtr<T, K> {
 }
 
 impl<T: Real, K: Masking<T>> Gtr<T, K> {
-    fn new(alpha: T, gamma: T) -> Result<Self, Error> {
+    pub(crate) fn new(alpha: T, gamma: T) -> Result<Self, Error> {
         // The mask first: its range of γ is the narrower, and the one an error should name.
         let masking = K::new(width(alpha)?, gamma)?;
         Ok(Self { density: Density::new(alpha, gamma)?, masking })
@@ -346,7 +338,7 @@ impl<T: Real> Density<T> {
     /// γ = 1 needs no case of its own.
     #[inline(always)]
     fn sample(&self, [u1, u2]: [T; 2]) -> [T; 3] {
-        let u = u1.widen();
+        let u = below_one(u1).widen();
         let log_from_pole = ln_1p(u * self.to_horizon) * self.inv_one_minus_gamma;
         let log_to_horizon = ln_1p((T::Wide::ONE - u) * self.to_pole) * self.inv_one_minus_gamma;
         let sin = (self.scaled_range * exp_m1(log_from_pole)).max(T::Wide::ZERO).sqrt();
@@ -354,28 +346,5 @@ impl<T: Real> Density<T> {
         let (sin_phi, cos_phi) = sin_cos_of_turn(u2);
         let (sin, cos) = (T::narrow(sin), T::narrow(cos));
         [sin * cos_phi, sin * sin_phi, cos]
-    }
-}
-
-/// What is serialised of a GTR: what it was built from.
-#[cfg(feature = "serde")]
-#[derive(serde::Serialize, serde::Deserialize)]
-struct Parameters<T> {
-    alpha: T,
-    gamma: T,
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real, K> From<Gtr<T, K>> for Parameters<T> {
-    fn from(gtr: Gtr<T, K>) -> Self {
-        Self { alpha: gtr.alpha(), gamma: gtr.gamma() }
-    }
-}
-
-#[cfg(feature = "serde")]
-impl<T: Real, K: Masking<T>> TryFrom<Parameters<T>> for Gtr<T, K> {
-    type Error = Error;
-    fn try_from(parameters: Parameters<T>) -> Result<Self, Error> {
-        Self::new(parameters.alpha, parameters.gamma)
     }
 }

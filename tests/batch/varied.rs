@@ -8,6 +8,7 @@ use microsurface::batch::{
 use microsurface::bsdf::RoughConductor;
 use microsurface::filter::{Footprint, projected};
 use microsurface::fresnel::Schlick;
+use microsurface::roughness::clamped;
 use microsurface::{Beckmann, Error, Ggx, Gtr, Ndf, Real, RoughnessMatrix};
 
 use crate::{Arguments, Elementary, LONGEST, direction, evaluates, reflects, same, samples};
@@ -63,8 +64,12 @@ fn textures<T: Elementary>(len: usize) {
         RoughConductor::new(Beckmann::anisotropic(width::<T>(i, 0), width(i, 1)).unwrap(), fresnel)
     });
 
-    let matrix = |i| RoughnessMatrix::rotated(width::<T>(i, 0), T::lit(0.1), width(i, 1)).unwrap();
-    let [xx, xy, yy] = &slices(len, |i, k| matrix(i).entries()[k]);
+    let entries = |i| RoughnessMatrix::rotated(width::<T>(i, 0), T::lit(0.1), width(i, 1)).unwrap().entries();
+    let matrix = |i| {
+        let [xx, xy, yy] = entries(i);
+        RoughnessMatrix::new(xx, xy, yy).unwrap()
+    };
+    let [xx, xy, yy] = &slices(len, |i, k| entries(i)[k]);
     let turned = Varied::new(&ggx, RoughnessMatrices::new(xx, xy, yy).unwrap());
     evaluates(&turned, len, &|i| Ggx::from_roughness_matrix(matrix(i)));
 }
@@ -117,6 +122,24 @@ fn numbers_that_make_no_surface_are_refused() {
     let refused = RoughnessMatrices::new(&[0.2, 0.2], &correlated, &[0.2, 0.2]).unwrap_err();
     assert!(matches!(refused, Error::RoughnessMatrix { xy: 0.3, .. }));
     assert!(catch_unwind(|| RoughnessMatrices::new(&[0.2, 0.2], &[0.0], &[0.2, 0.2])).is_err());
+}
+
+/// Where a checked texture is refused a clamping one has the nearest width, and all others are as they were.
+#[test]
+fn clamped_numbers_make_a_surface_each() {
+    let texels: Vec<f32> =
+        (0..70).map(|i| [0.3, 0.0, -0.1, f32::NAN, f32::INFINITY, 1e-12, 1.0][i % 7]).collect();
+    let a = Arguments::<f32>::new(70, 11);
+    let surface = Ggx::isotropic(0.2_f32).unwrap();
+    let mut d = [f32::NAN; 70];
+    Varied::new(&surface, Alphas::clamped(&texels)).d_batch(a.wi(), &mut d);
+    same("clamped α", &d, |i| Ggx::isotropic(clamped(texels[i])).unwrap().d(direction::<f32>(&a.wi, i)));
+    let others: Vec<f32> = texels.iter().rev().copied().collect();
+    Varied::new(&surface, AlphaPairs::clamped(&texels, &others)).d_batch(a.wi(), &mut d);
+    same("clamped α of two axes", &d, |i| {
+        let [x, y] = [texels[i], others[i]].map(clamped);
+        Ggx::anisotropic(x, y).unwrap().d(direction::<f32>(&a.wi, i))
+    });
 }
 
 #[test]

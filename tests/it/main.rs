@@ -19,6 +19,8 @@ mod identities;
 mod properties;
 mod quadrature;
 mod readme;
+mod reflection;
+mod roughness;
 mod scalar;
 mod stored;
 mod strategies;

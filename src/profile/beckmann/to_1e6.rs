@@ -33,7 +33,6 @@ use crate::profile::{Profile, SampleProfile, SampleVisibleProfile, shape_invaria
 /// # References
 /// As [`Beckmann`]; Heitz and d'Eon 2014, §4.1, with an inversion of our own, derived in `beckmann/visible.rs`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct BeckmannTo1e6;
 
 shape_invariant!(BeckmannTo1e6);
