@@ -49,6 +49,8 @@ impl<T: Real> Frame<T> {
 
     /// The frame of a unit normal whose x axis is the part of `tangent` across the normal.
     ///
+    /// The tangent may have any length.
+    ///
     /// # Special cases
     /// A tangent that is zero, not finite, or within 8ε of the direction of the normal has no such part: the frame
     /// of [`from_normal`](Self::from_normal) comes back.
@@ -56,6 +58,9 @@ impl<T: Real> Frame<T> {
     #[must_use]
     pub fn from_normal_and_tangent(normal: T::Vec3, tangent: T::Vec3) -> Self {
         let (n, t): ([T; 3], [T; 3]) = (normal.into(), tangent.into());
+        // Over its largest component, whose inverse may overflow: the square of its length is a number.
+        let largest = t[0].abs().max(t[1].abs()).max(t[2].abs());
+        let t = t.map(|c| c / largest);
         let along = dot(n, t);
         let across = [t[0] - along * n[0], t[1] - along * n[1], t[2] - along * n[2]];
         let length2 = dot(across, across);
@@ -115,6 +120,9 @@ pub fn normal_to_slope<T: Real>(m: T::Vec3) -> T::Vec2 {
 
 /// The unit normal of a facet of this slope.
 ///
+/// # Domain
+/// Any finite slope. Where its square overflows the normal lies in the plane to every digit.
+///
 /// # Example
 /// ```
 /// use microsurface::{frame::{normal_to_slope, slope_to_normal}, glam::Vec2};
@@ -127,7 +135,8 @@ pub fn normal_to_slope<T: Real>(m: T::Vec3) -> T::Vec2 {
 #[must_use]
 pub fn slope_to_normal<T: Real>(slope: T::Vec2) -> T::Vec3 {
     let [x, y]: [T; 2] = slope.into();
-    normalized([-x, -y, T::ONE]).into()
+    let largest = x.abs().max(y.abs()).max(T::ONE);
+    normalized([-x / largest, -y / largest, T::ONE / largest]).into()
 }
 
 /// The mirror image of `w` about the unit normal `m`: 2 (w·m) m − w.

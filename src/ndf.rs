@@ -156,7 +156,7 @@ pub trait Ndf {
     /// before the result, is not formed.
     ///
     /// # Returns
-    /// 0 … min(G1(wi), G1(wo)).
+    /// 0 … min(G1(wi), G1(wo)), above it by at most 4 ε of rounding, and never above 1.
     ///
     /// # Special cases
     /// A direction at or below the horizon, or on the back of wm → 0.
@@ -243,7 +243,7 @@ pub trait SampleNdf: Ndf {
     /// A micronormal of density D(wm) wm.z from two random numbers.
     ///
     /// # Domain
-    /// u ∈ [0, 1)², 0 included.
+    /// u ∈ [0, 1]²: 1, which some generators round to, counts as the number below it.
     ///
     /// # Returns
     /// A unit vector with z ≥ 0.
@@ -299,7 +299,8 @@ pub trait SampleVndf: Ndf {
     /// A micronormal visible from `w`, of density [`vndf(w, ·)`](Ndf::vndf), from two random numbers.
     ///
     /// # Domain
-    /// w as for [`vndf`](Ndf::vndf); u ∈ [0, 1)², 0 included.
+    /// w as for [`vndf`](Ndf::vndf); u ∈ [0, 1]²: 1, which some generators round to, counts as the number
+    /// below it.
     ///
     /// # Returns
     /// A unit vector with z ≥ 0 and w·wm > 0.

@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::map::invertible;
 use crate::microsurface::{in_view, turned_into_view};
 use crate::ndf::{Course, Ndf, SampleNdf, SampleVndf, Slopes, Vec2, Vec3};
-use crate::vector::{dot, normalized};
+use crate::vector::{at_least_cosine, dot, normalized};
 
 /// Any distribution, moved by a 2×2 matrix of the tangent plane.
 ///
@@ -165,18 +165,21 @@ impl<N: Ndf> Ndf for Transformed<N> {
     #[inline(always)]
     fn sigma(&self, w: Vec3<Self>) -> N::Scalar {
         let (direction, length) = self.pulled_direction(w);
-        length * self.ndf.sigma(direction)
+        at_least_cosine(w.into(), length * self.ndf.sigma(direction))
     }
 
     #[inline(always)]
     fn sigma_above(&self, w: Vec3<Self>) -> N::Scalar {
         let (direction, length) = self.pulled_direction(w);
-        length * self.ndf.sigma_above(direction)
+        at_least_cosine(w.into(), length * self.ndf.sigma_above(direction))
     }
 
     #[inline(always)]
     fn lambda(&self, w: Vec3<Self>) -> N::Scalar {
-        self.ndf.lambda(self.pulled_direction(w).0)
+        // Of the upper side: normalised, a height may vanish and take its sign along.
+        let [x, y, z]: [N::Scalar; 3] = w.into();
+        let lambda = self.ndf.lambda(self.pulled_direction([x, y, z.abs()].into()).0);
+        if z < N::Scalar::ZERO { -N::Scalar::ONE - lambda } else { lambda }
     }
 
     #[inline(always)]

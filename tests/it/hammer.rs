@@ -75,16 +75,25 @@ impl Random {
 
     fn spec(&mut self) -> Spec {
         let gtr_alpha = if self.below(4) == 0 { 1.0 } else { self.decades(-8.0, 0.0) };
-        let shape = match self.below(8) {
+        let shape = match self.below(12) {
             0..3 => Shape::Ggx,
-            3 => Shape::Beckmann,
-            4 => Shape::BeckmannTo1e6,
-            5 => Shape::Mixture { alpha: gtr_alpha, gamma: self.gamma() },
-            6 => Shape::Gtr { alpha: gtr_alpha, gamma: self.below(5) as u8 },
+            3..5 => Shape::Beckmann,
+            5 => Shape::BeckmannTo1e6,
+            6 => Shape::Mixture { alpha: gtr_alpha, gamma: self.gamma() },
+            7 => Shape::Gtr { alpha: gtr_alpha, gamma: [0, 1, 2, 3, 4, 6, 10][self.below(7) as usize] },
+            8 => Shape::Heavy { alpha: gtr_alpha, gamma: self.gamma().min(2.0) },
+            9 => {
+                let deviations = [self.alpha(), self.alpha()].map(|x| if x == 1e4 { 0.0 } else { x });
+                Shape::Filtered { deviations, by_two: self.below(2) == 0 }
+            }
+            10 => Shape::Halves { alpha: self.alpha() },
             _ => Shape::Spline { alpha: gtr_alpha, gamma: 4.0 * self.unit() },
         };
-        let invariant = matches!(shape, Shape::Ggx | Shape::Beckmann | Shape::BeckmannTo1e6);
-        let alpha = if !invariant && self.below(2) == 0 { 1.0 } else { self.alpha() };
+        let gtr = matches!(
+            shape,
+            Shape::Mixture { .. } | Shape::Gtr { .. } | Shape::Heavy { .. } | Shape::Spline { .. }
+        );
+        let alpha = if gtr && self.below(2) == 0 { 1.0 } else { self.alpha() };
         let other = (alpha * self.decades(-6.0, 6.0)).clamp(1e-8, 1e4);
         let widths = match self.below(3) {
             0 => Widths::Isotropic(alpha),
@@ -92,14 +101,23 @@ impl Random {
             _ => Widths::Matrix { x: alpha, y: other, correlation: self.correlation() },
         };
         let moved = match self.below(6) {
-            0 => Move::Transform([
-                [self.within(-2.0, 2.0), self.within(-2.0, 2.0)],
-                [self.within(-2.0, 2.0), self.within(-2.0, 2.0)],
-            ]),
-            1 => Move::Stretch(self.within(-1.0, 1.0)),
+            0 => Move::Transform(self.matrix()),
+            1 => Move::Wrap(self.matrix()),
+            2 => Move::Stretch(self.within(-1.0, 1.0)),
             _ => Move::Stay,
         };
+        // What is no profile under a map is moved by a wrapper alone.
+        let moved = match (shape, moved) {
+            (Shape::Filtered { .. } | Shape::Halves { .. }, Move::Transform(_) | Move::Stretch(_)) => {
+                Move::Stay
+            }
+            _ => moved,
+        };
         Spec::new(shape, widths, moved)
+    }
+
+    fn matrix(&mut self) -> [[f64; 2]; 2] {
+        core::array::from_fn(|_| core::array::from_fn(|_| self.within(-2.0, 2.0)))
     }
 
     /// A direction on or above the horizon.
@@ -149,8 +167,9 @@ impl Random {
     }
 
     fn number<T: Scalar>(&mut self) -> T {
-        match self.below(8) {
+        match self.below(9) {
             0 => T::ZERO,
+            8 => T::ONE,
             1 => T::BELOW_ONE,
             2 => T::ONE.stepped(-1 - self.ulps().abs()),
             3 => T::lit(self.decades(-40.0, 0.0)).min(T::BELOW_ONE),
@@ -321,8 +340,11 @@ fn beyond_the_scalar<T: Scalar>(spec: &Spec) -> bool {
     let [[a, b], [c, d]] = spec.factor::<T>();
     let smallest = (a * d - b * c).abs() / (a * a + b * b + c * c + d * d).sqrt();
     let own = match spec.shape {
-        Shape::Gtr { alpha, .. } | Shape::Mixture { alpha, .. } | Shape::Spline { alpha, .. } => alpha,
-        Shape::Ggx | Shape::Beckmann | Shape::BeckmannTo1e6 => 1.0,
+        Shape::Gtr { alpha, .. }
+        | Shape::Mixture { alpha, .. }
+        | Shape::Heavy { alpha, .. }
+        | Shape::Spline { alpha, .. } => alpha,
+        _ => 1.0,
     };
     skewness(spec) > 0.25 / T::EPSILON.to_f64() || own * smallest < alpha_range::<T>().0.to_f64()
 }
@@ -356,7 +378,7 @@ fn rounds<T: Scalar>(defects: &mut Defects, random: &mut Random, spec: Spec) {
     let copper = Conductor::new(T::lit(0.21), T::lit(3.67)).expect("copper");
     let copper = RoughConductor::new(surface.clone(), copper).sampled_by(AllNormals);
     // p = 0, both ends of what is left of the rounding, and anything between.
-    let probability = random.number::<T>();
+    let probability = random.number::<T>().min(T::BELOW_ONE);
     let mixture = UniformMixture::new(AllNormals, probability).expect("below 1");
     let mixed = RoughConductor::new(surface.clone(), Schlick::new(T::lit(0.04))).sampled_by(mixture);
     for _ in 0..8 {

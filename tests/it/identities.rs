@@ -113,9 +113,11 @@ fn plane<T: Scalar>(spec: &Spec) -> Plane {
     match spec.shape {
         Shape::Ggx => Plane::heavy(factor, 1.0),
         Shape::Beckmann | Shape::BeckmannTo1e6 => Plane::gaussian(factor),
-        Shape::Gtr { alpha, .. } | Shape::Mixture { alpha, .. } | Shape::Spline { alpha, .. } => {
-            Plane::heavy(factor, alpha)
-        }
+        Shape::Filtered { .. } | Shape::Halves { .. } => unreachable!("no plane of mixtures"),
+        Shape::Gtr { alpha, .. }
+        | Shape::Mixture { alpha, .. }
+        | Shape::Heavy { alpha, .. }
+        | Shape::Spline { alpha, .. } => Plane::heavy(factor, alpha),
     }
 }
 

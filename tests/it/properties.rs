@@ -79,8 +79,11 @@ fn roundings_of_d(spec: &Spec, m: [f64; 3], absolute: f64) -> f64 {
         Shape::Beckmann | Shape::BeckmannTo1e6 => 4.0 * z + dq,
         // A power has roundings of its own.
         Shape::Gtr { alpha, .. } => 6.0 * z + 4.0 * dq / (alpha * alpha + q) + 2.0 * dq / (1.0 + q),
-        Shape::Mixture { alpha, gamma } => {
+        Shape::Mixture { alpha, gamma } | Shape::Heavy { alpha, gamma } => {
             (8.0 + 0.8 * gamma) * z + gamma * dq / (alpha * alpha + q) + (gamma - 2.0).abs() * dq / (1.0 + q)
+        }
+        Shape::Filtered { .. } | Shape::Halves { .. } => {
+            unreachable!("mixtures have no conditioning of their own")
         }
         Shape::Spline { alpha, gamma } => 6.0 * z + gamma * dq / (alpha * alpha + q) + 2.0 * dq / (1.0 + q),
     }
@@ -88,7 +91,10 @@ fn roundings_of_d(spec: &Spec, m: [f64; 3], absolute: f64) -> f64 {
 
 /// How many roundings σ by one route is from σ by another: the sum over the nodes of a mixture has more.
 fn roundings_of_sigma(spec: &Spec) -> f64 {
-    if matches!(spec.shape, Shape::Mixture { .. }) { 8.0 } else { 3.0 }
+    match spec.shape {
+        Shape::Mixture { .. } | Shape::Heavy { .. } | Shape::Filtered { .. } => 8.0,
+        _ => 3.0,
+    }
 }
 
 /// How far rounding turns the stored map, in roundings of q: about half the ratio of its principal widths.

@@ -137,6 +137,7 @@ fn moves() -> impl Strategy<Value = Move> {
     prop_oneof![
         3 => Just(Move::Stay),
         1 => matrix().prop_map(Move::Transform),
+        1 => matrix().prop_map(Move::Wrap),
         1 => (-0.99..0.99).prop_map(Move::Stretch),
     ]
 }
@@ -161,16 +162,43 @@ pub(crate) fn surface() -> impl Strategy<Value = Spec> {
     let invariant = (any::<bool>(), widths(), moves()).prop_map(|(ggx, widths, moved)| {
         Spec::new(if ggx { Shape::Ggx } else { Shape::Beckmann }, widths, moved)
     });
-    let gtr = (gtr_alpha(), 0..=4_u8, widths_of_gtr.clone(), moves())
+    let closed = prop_oneof![5 => 0..=4_u8, 1 => Just(6), 1 => Just(10)];
+    let gtr = (gtr_alpha(), closed, widths_of_gtr.clone(), moves())
         .prop_map(|(alpha, gamma, widths, moved)| Spec::new(Shape::Gtr { alpha, gamma }, widths, moved));
+    let heavy = (gtr_alpha(), 0.0..=2.0, widths_of_gtr.clone(), moves())
+        .prop_map(|(alpha, gamma, widths, moved)| Spec::new(Shape::Heavy { alpha, gamma }, widths, moved));
     let spline = (gtr_alpha(), prop_oneof![3 => 0.0..=4.0, 1 => Just(1.0 + 1e-9)], widths_of_gtr, moves())
         .prop_map(|(alpha, gamma, widths, moved)| Spec::new(Shape::Spline { alpha, gamma }, widths, moved));
-    prop_oneof![3 => invariant, 1 => gtr, 1 => mixture(), 1 => spline]
+    prop_oneof![6 => invariant, 2 => gtr, 2 => mixture(), 1 => heavy, 2 => spline]
 }
 
-/// Surfaces whose visible normals can be drawn.
+/// Mixtures of distributions, which are no profile under a map: filtered ones, and a caller's own.
+fn compound() -> impl Strategy<Value = Spec> {
+    let kept = || prop_oneof![2 => Just(Move::Stay), 1 => matrix().prop_map(Move::Wrap)];
+    let share = || prop_oneof![4 => log_uniform(-13.0, 13.0), 1 => Just(0.0)];
+    let filtered =
+        (alpha(), share(), share(), any::<bool>(), kept()).prop_map(|(alpha, x, y, by_two, moved)| {
+            let deviations = [x, y].map(|share| (alpha * share).min(1e3));
+            Spec::new(Shape::Filtered { deviations, by_two }, Widths::Isotropic(alpha), moved)
+        });
+    let halves = (alpha(), widths(), kept())
+        .prop_map(|(alpha, widths, moved)| Spec::new(Shape::Halves { alpha }, widths, moved));
+    prop_oneof![2 => filtered, 1 => halves]
+}
+
+/// Every distribution: profiles under maps, wrappers and mixtures.
+pub(crate) fn distribution() -> impl Strategy<Value = Spec> {
+    prop_oneof![3 => surface(), 1 => compound()]
+}
+
+/// Distributions whose visible normals can be drawn.
+pub(crate) fn visible_distribution() -> impl Strategy<Value = Spec> {
+    distribution().prop_filter("visible normals", Spec::samples_visible)
+}
+
+/// Profiles under maps whose visible normals can be drawn.
 pub(crate) fn visible_surface() -> impl Strategy<Value = Spec> {
-    surface().prop_filter("visible normals", |spec| !matches!(spec.shape, Shape::Spline { .. }))
+    surface().prop_filter("visible normals", Spec::samples_visible)
 }
 
 /// The share of 4000 draws with a property.
@@ -230,6 +258,9 @@ fn surfaces_of_every_kind_build() {
         ("GTR of nodes", share(&spec, |s| matches!(s.shape, Shape::Mixture { .. }))),
         ("spline", share(&spec, |s| matches!(s.shape, Shape::Spline { .. }))),
         ("transformed", share(&spec, |s| matches!(s.moved, Move::Transform(_)))),
+        ("wrapped", share(&spec, |s| matches!(s.moved, Move::Wrap(_)))),
+        ("heavy tails", share(&spec, |s| matches!(s.shape, Shape::Heavy { .. }))),
+        ("filtered", share(&compound(), |s| matches!(s.shape, Shape::Filtered { .. }))),
         ("stretched", share(&spec, |s| matches!(s.moved, Move::Stretch(_)))),
         ("smooth", share(&alpha().boxed(), |alpha| alpha < 1e-4)),
         ("rough", share(&alpha().boxed(), |alpha| alpha > 10.0)),

@@ -4,10 +4,12 @@
 use core::fmt;
 use std::rc::Rc;
 
-use microsurface::map::{AxisAligned, Isotropic, Linear};
+use microsurface::filter::{Covariance, gaussian};
+use microsurface::map::{AxisAligned, Isotropic, Linear, Map};
 use microsurface::ndf::{Ndf, SampleNdf, SampleVndf, Vec2, Vec3};
 use microsurface::profile::beckmann::BeckmannTo1e6;
 use microsurface::profile::{SampleProfile, SampleVisibleProfile};
+use microsurface::transform::Transformed;
 use microsurface::{Beckmann, Error, Ggx, Gtr, Microsurface, Real, RoughnessMatrix};
 
 /// A profile and its own parameters.
@@ -27,9 +29,23 @@ pub(crate) enum Shape {
         alpha: f64,
         gamma: f64,
     },
+    /// GTR of γ ≤ 2 with the mask of eight nodes and no components.
+    Heavy {
+        alpha: f64,
+        gamma: f64,
+    },
     Spline {
         alpha: f64,
         gamma: f64,
+    },
+    /// GGX convolved with a Gaussian of these standard deviations along the axes, as six surfaces more or as one.
+    Filtered {
+        deviations: [f64; 2],
+        by_two: bool,
+    },
+    /// GGX of `widths` and a Beckmann surface of α, half of each, as a caller's own [`Ndf`] of two functions.
+    Halves {
+        alpha: f64,
     },
 }
 
@@ -47,6 +63,8 @@ pub(crate) enum Move {
     Stay,
     /// The columns of a matrix.
     Transform([[f64; 2]; 2]),
+    /// The same by [`Transformed`], which knows nothing of the surface.
+    Wrap([[f64; 2]; 2]),
     Stretch(f64),
 }
 
@@ -65,7 +83,17 @@ impl Spec {
 
     /// Whether σ is that of D to rounding.
     pub(crate) fn exact_mask(&self) -> bool {
-        !matches!(self.shape, Shape::Spline { .. } | Shape::Mixture { .. })
+        !matches!(self.shape, Shape::Spline { .. } | Shape::Mixture { .. } | Shape::Heavy { .. })
+    }
+
+    /// Whether the width of the surface is that of its map alone.
+    pub(crate) fn shape_invariant(&self) -> bool {
+        matches!(self.shape, Shape::Ggx | Shape::Beckmann | Shape::BeckmannTo1e6)
+    }
+
+    /// Whether visible normals can be drawn.
+    pub(crate) fn samples_visible(&self) -> bool {
+        !matches!(self.shape, Shape::Spline { .. } | Shape::Halves { .. })
     }
 
     /// With every parameter rounded to f32, so that both scalars hold the same; widths of matrices as their entries
@@ -75,6 +103,7 @@ impl Spec {
         let shape = match self.shape {
             Shape::Gtr { alpha, gamma } => Shape::Gtr { alpha: held(alpha), gamma },
             Shape::Mixture { alpha, gamma } => Shape::Mixture { alpha: held(alpha), gamma: held(gamma) },
+            Shape::Heavy { alpha, gamma } => Shape::Heavy { alpha: held(alpha), gamma: held(gamma) },
             Shape::Spline { alpha, gamma } => Shape::Spline { alpha: held(alpha), gamma: held(gamma) },
             shape => shape,
         };
@@ -85,6 +114,7 @@ impl Spec {
         let moved = match self.moved {
             Move::Stay => Move::Stay,
             Move::Transform(columns) => Move::Transform(columns.map(|column| column.map(held))),
+            Move::Wrap(columns) => Move::Wrap(columns.map(|column| column.map(held))),
             Move::Stretch(s) => Move::Stretch(held(s)),
         };
         Self { shape, widths, moved }
@@ -102,15 +132,48 @@ impl Spec {
                     1 => self.visible(*Gtr::closed::<1>(alpha)?.profile()),
                     2 => self.visible(*Gtr::closed::<2>(alpha)?.profile()),
                     3 => self.visible(*Gtr::closed::<3>(alpha)?.profile()),
-                    _ => self.visible(*Gtr::closed::<4>(alpha)?.profile()),
+                    4 => self.visible(*Gtr::closed::<4>(alpha)?.profile()),
+                    6 => self.visible(*Gtr::closed::<6>(alpha)?.profile()),
+                    10 => self.visible(*Gtr::closed::<10>(alpha)?.profile()),
+                    _ => panic!("no closed mask of γ = {gamma} is tested"),
                 }
             }
             Shape::Mixture { alpha, gamma } => {
                 self.visible(*Gtr::isotropic(T::lit(alpha), T::lit(gamma))?.profile())
             }
+            Shape::Heavy { alpha, gamma } => {
+                self.visible(*Gtr::heavy_tailed::<8>(T::lit(alpha), T::lit(gamma))?.profile())
+            }
             Shape::Spline { alpha, gamma } => {
                 self.hidden(*Gtr::spline(T::lit(alpha), T::lit(gamma))?.profile())
             }
+            Shape::Filtered { deviations, by_two } => {
+                let [x, y] = deviations.map(|deviation| T::lit(deviation));
+                let kernel = Covariance::axis_aligned(x * x, y * y);
+                match self.map(Ggx)? {
+                    AnyMap::Isotropic(m) => self.convolved(&Microsurface::new(Ggx, m), kernel, by_two),
+                    AnyMap::AxisAligned(m) => self.convolved(&Microsurface::new(Ggx, m), kernel, by_two),
+                    AnyMap::Linear(m) => self.convolved(&Microsurface::new(Ggx, m), kernel, by_two),
+                }
+            }
+            Shape::Halves { alpha } => {
+                let ggx = Spec { shape: Shape::Ggx, moved: Move::Stay, ..*self }.build()?;
+                let beckmann = Spec::new(Shape::Beckmann, Widths::Isotropic(alpha), Move::Stay).build()?;
+                self.all_normals(Halves(ggx, beckmann))
+            }
+        }
+    }
+
+    fn convolved<T: Real, M: Map<Scalar = T>>(
+        &self,
+        surface: &Microsurface<Ggx, M>,
+        kernel: Covariance<T>,
+        by_two: bool,
+    ) -> Result<Surface<T>, Error> {
+        if by_two {
+            self.all_and_visible_normals(gaussian::filtered_by_two(surface, kernel)?)
+        } else {
+            self.all_and_visible_normals(gaussian::filtered(surface, kernel)?)
         }
     }
 
@@ -132,7 +195,7 @@ impl Spec {
         };
         match self.moved {
             Move::Stay => [[a, b], [c, d]],
-            Move::Transform(columns) => {
+            Move::Transform(columns) | Move::Wrap(columns) => {
                 // Slopes go with the inverse transpose of the points' matrix.
                 let [[m11, m21], [m12, m22]] = columns.map(|column| column.map(held));
                 let det = m11 * m22 - m12 * m21;
@@ -160,19 +223,44 @@ impl Spec {
         &self,
         profile: P,
     ) -> Result<Surface<T>, Error> {
-        let (ndf, visible): Handles<T> = match self.map(profile)? {
-            AnyMap::Isotropic(m) => shared_visible(Microsurface::new(profile, m)),
-            AnyMap::AxisAligned(m) => shared_visible(Microsurface::new(profile, m)),
-            AnyMap::Linear(m) => shared_visible(Microsurface::new(profile, m)),
-        };
-        Ok(Surface { spec: *self, ndf, visible })
+        match self.map(profile)? {
+            AnyMap::Isotropic(m) => self.all_and_visible_normals(Microsurface::new(profile, m)),
+            AnyMap::AxisAligned(m) => self.all_and_visible_normals(Microsurface::new(profile, m)),
+            AnyMap::Linear(m) => self.all_and_visible_normals(Microsurface::new(profile, m)),
+        }
     }
 
     fn hidden<T: Real, P: SampleProfile<T> + 'static>(&self, profile: P) -> Result<Surface<T>, Error> {
-        let ndf: Rc<dyn SampleNdf<Scalar = T>> = match self.map(profile)? {
-            AnyMap::Isotropic(m) => Rc::new(Microsurface::new(profile, m)),
-            AnyMap::AxisAligned(m) => Rc::new(Microsurface::new(profile, m)),
-            AnyMap::Linear(m) => Rc::new(Microsurface::new(profile, m)),
+        match self.map(profile)? {
+            AnyMap::Isotropic(m) => self.all_normals(Microsurface::new(profile, m)),
+            AnyMap::AxisAligned(m) => self.all_normals(Microsurface::new(profile, m)),
+            AnyMap::Linear(m) => self.all_normals(Microsurface::new(profile, m)),
+        }
+    }
+
+    /// A distribution behind one type, wrapped if that is asked for.
+    fn all_and_visible_normals<T: Real, N>(&self, ndf: N) -> Result<Surface<T>, Error>
+    where
+        N: SampleNdf<Scalar = T> + SampleVndf<Scalar = T> + 'static,
+    {
+        fn shared<T: Real, N>(spec: Spec, ndf: N) -> Surface<T>
+        where
+            N: SampleNdf<Scalar = T> + SampleVndf<Scalar = T> + 'static,
+        {
+            let ndf = Rc::new(ndf);
+            Surface { spec, ndf: ndf.clone(), visible: Some(ndf) }
+        }
+        match self.moved {
+            Move::Wrap(columns) => Ok(shared(*self, Transformed::new(ndf, matrix::<T>(columns))?)),
+            _ => Ok(shared(*self, ndf)),
+        }
+    }
+
+    /// The same of one whose visible normals cannot be drawn.
+    fn all_normals<T: Real, N: SampleNdf<Scalar = T> + 'static>(&self, ndf: N) -> Result<Surface<T>, Error> {
+        let ndf: Rc<dyn SampleNdf<Scalar = T>> = match self.moved {
+            Move::Wrap(columns) => Rc::new(Transformed::new(ndf, matrix::<T>(columns))?),
+            _ => Rc::new(ndf),
         };
         Ok(Surface { spec: *self, ndf, visible: None })
     }
@@ -187,17 +275,16 @@ impl Spec {
                 AnyMap::Linear(Linear::from(RoughnessMatrix::new(xx, xy, yy)?))
             }
         };
-        let matrix = |columns: [[f64; 2]; 2]| T::matrix(columns.map(|column| column.map(T::lit)));
         Ok(match (self.moved, base) {
-            (Move::Stay, base) => base,
+            (Move::Stay | Move::Wrap(_), base) => base,
             (Move::Transform(m), AnyMap::Isotropic(b)) => {
-                AnyMap::Linear(*Microsurface::new(profile, b).transformed(matrix(m))?.map())
+                AnyMap::Linear(*Microsurface::new(profile, b).transformed(matrix::<T>(m))?.map())
             }
             (Move::Transform(m), AnyMap::AxisAligned(b)) => {
-                AnyMap::Linear(*Microsurface::new(profile, b).transformed(matrix(m))?.map())
+                AnyMap::Linear(*Microsurface::new(profile, b).transformed(matrix::<T>(m))?.map())
             }
             (Move::Transform(m), AnyMap::Linear(b)) => {
-                AnyMap::Linear(*Microsurface::new(profile, b).transformed(matrix(m))?.map())
+                AnyMap::Linear(*Microsurface::new(profile, b).transformed(matrix::<T>(m))?.map())
             }
             (Move::Stretch(s), AnyMap::Isotropic(b)) => {
                 AnyMap::AxisAligned(*Microsurface::new(profile, b).stretched(T::lit(s))?.map())
@@ -218,14 +305,36 @@ enum AnyMap<T> {
     Linear(Linear<T>),
 }
 
-type Handles<T> = (Rc<dyn SampleNdf<Scalar = T>>, Option<Rc<dyn SampleVndf<Scalar = T>>>);
+fn matrix<T: Real>(columns: [[f64; 2]; 2]) -> T::Mat2 {
+    T::matrix(columns.map(|column| column.map(T::lit)))
+}
 
-fn shared_visible<T: Real, N>(surface: N) -> Handles<T>
-where
-    N: SampleNdf<Scalar = T> + SampleVndf<Scalar = T> + 'static,
-{
-    let surface = Rc::new(surface);
-    (surface.clone(), Some(surface))
+/// Half of one surface and half of another: what a caller's own distribution is, of the functions that
+/// [`Ndf`] asks for and no other.
+struct Halves<T: Real>(Surface<T>, Surface<T>);
+
+impl<T: Real> Ndf for Halves<T> {
+    type Scalar = T;
+    fn d(&self, wm: Vec3<Self>) -> T {
+        T::HALF * (self.0.d(wm) + self.1.d(wm))
+    }
+    fn sigma(&self, w: Vec3<Self>) -> T {
+        T::HALF * (self.0.sigma(w) + self.1.sigma(w))
+    }
+    fn lambda(&self, w: Vec3<Self>) -> T {
+        T::HALF * (self.0.lambda(w) + self.1.lambda(w))
+    }
+}
+
+impl<T: Real> SampleNdf for Halves<T> {
+    fn sample_d(&self, u: Vec2<Self>) -> Vec3<Self> {
+        let [x, y]: [T; 2] = u.into();
+        if x < T::HALF {
+            self.0.sample_d([x + x, y].into())
+        } else {
+            self.1.sample_d([x + x - T::ONE, y].into())
+        }
+    }
 }
 
 /// A surface of the crate behind one type. Every method is the crate's own.

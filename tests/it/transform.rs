@@ -220,6 +220,20 @@ fn tension_is_the_deformation_in_the_frame_of_u() {
     }
 }
 
+/// Texture coordinates that run the other way round turn the tangent, not the normal.
+#[test]
+fn a_mirrored_texture_has_a_frame_along_its_u() {
+    let corners = [DVec3::ZERO, DVec3::new(2.0, 0.0, 0.0), DVec3::new(0.5, 1.0, 0.0)];
+    for (u, v) in [(1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)] {
+        // u grows by ±1 along x and is constant along y.
+        let uv = corners.map(|p| DVec2::new(u * p.x, v * p.y));
+        let triangle = Triangle::<f64> { rest: corners, deformed: corners, uv };
+        let [x, y, z] = triangle.frame().unwrap().axes();
+        assert!((x - u * DVec3::X).length() < 1e-15 && (y - u * DVec3::Y).length() < 1e-15, "{x} {y}");
+        assert!((z - DVec3::Z).length() < 1e-15, "{z}");
+    }
+}
+
 #[test]
 fn tension_of_what_stays_is_the_identity_and_of_a_balloon_its_scale() {
     let mut random = Pcg64Mcg::new(6);

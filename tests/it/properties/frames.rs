@@ -4,13 +4,15 @@ use microsurface::frame::{Frame, normal_to_slope, reflected, slope_to_normal};
 use proptest::prelude::*;
 
 use super::{Outcome, check, for_both_scalars, near};
-use crate::scalar::{Scalar, dot};
+use crate::scalar::{Scalar, dot, unit, wide};
 use crate::strategies::{anywhere, strictly_above};
 
 for_both_scalars! {
     frames_of_normals_are_orthonormal
     frames_next_to_the_poles_are_orthonormal
     tangents_are_followed_where_they_have_a_direction
+    tangents_next_to_the_normal_have_a_direction
+    steep_slopes_have_a_normal
     frames_come_back
     slopes_come_back
     mirror_images_are_on_the_other_side
@@ -50,7 +52,9 @@ fn frames_next_to_the_poles_are_orthonormal<T: Scalar>() {
 }
 
 fn tangents_are_followed_where_they_have_a_direction<T: Scalar>() {
-    let arguments = (anywhere::<T>(), anywhere::<T>(), -20.0..20.0, -70.0..1.0, any::<bool>());
+    // Lengths whose squares are no numbers, too.
+    let lengths = if T::NAME == "f32" { -60.0..60.0 } else { -500.0..500.0 };
+    let arguments = (anywhere::<T>(), anywhere::<T>(), lengths, -70.0..1.0, any::<bool>());
     check(3000, arguments, |(n, t, length, angle, parallel)| {
         let (length, angle) = (f64::exp2(length), f64::exp2(angle));
         // Any tangent, or one at a tiny angle to the normal.
@@ -62,15 +66,40 @@ fn tangents_are_followed_where_they_have_a_direction<T: Scalar>() {
         orthonormal(&frame, n, 8.0)?;
         let [x, _, _]: [[T; 3]; 3] = frame.axes().map(Into::into);
         if !parallel {
-            let (along, t2) = (dot(n, t).to_f64(), dot(t, t).to_f64());
+            let t = wide(t).map(|c| c / length);
+            let (along, t2) = (dot(wide(n), t), dot(t, t));
             let across2 = t2 - along * along;
             if across2 > 0.01 * t2 {
-                let cosine = dot(x, t).to_f64() / across2.sqrt();
+                let cosine = dot(wide(x), t) / across2.sqrt();
                 prop_assert!((cosine - 1.0).abs() < 1e3 * T::EPSILON.to_f64(), "x·t = {cosine}");
             }
         }
         Ok(())
     });
+}
+
+/// Tangents that hardly differ from the normal have a direction across it all the same, down to 8ε.
+fn tangents_next_to_the_normal_have_a_direction<T: Scalar>() {
+    let n = [0.0, 0.6, 0.8].map(T::lit);
+    for (angle, follows) in [(1e3, true), (20.0, true), (2.0, false)] {
+        let mut t = n;
+        t[0] = T::lit(angle) * T::EPSILON;
+        let [x, _, _]: [[T; 3]; 3] =
+            Frame::<T>::from_normal_and_tangent(n.into(), t.into()).axes().map(Into::into);
+        let [other, _, _] = Frame::<T>::from_normal(n.into()).axes();
+        assert!((x[0] - T::ONE).abs() < T::lit(0.01) || !follows, "{angle}: {x:?}");
+        assert!(follows || T::Vec3::from(x) == other, "{angle}: {x:?}");
+    }
+}
+
+fn steep_slopes_have_a_normal<T: Scalar>() {
+    for slope in [1.0, 1e20, 1e38].into_iter().chain((T::NAME == "f64").then_some(1e300)) {
+        let m: [T; 3] = slope_to_normal::<T>([T::lit(slope), T::lit(-slope)].into()).into();
+        let expected = unit([-1.0, 1.0, 1.0 / slope]);
+        for (a, b) in m.into_iter().zip(expected) {
+            near("component", a, T::lit(b), 3.0).expect("the normal");
+        }
+    }
 }
 
 fn frames_come_back<T: Scalar>() {

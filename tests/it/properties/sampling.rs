@@ -8,7 +8,10 @@ use proptest::prelude::*;
 use super::evaluation::built;
 use super::{Outcome, check, for_both_scalars, near, roundings_of_d, skewness};
 use crate::scalar::{Scalar, dot, unit, wide};
-use crate::strategies::{anywhere, pairs, strictly_above, surface, unit_interval, visible_surface};
+use crate::strategies::{
+    anywhere, distribution, pairs, strictly_above, surface, unit_interval, visible_distribution,
+    visible_surface,
+};
 use crate::surfaces::{Spec, Surface};
 
 for_both_scalars! {
@@ -28,7 +31,7 @@ fn is_unit<T: Scalar>(v: [T; 3], roundings: f64) -> Outcome {
 }
 
 fn normals_are_of_the_upper_hemisphere<T: Scalar>() {
-    check(4000, (surface(), unit_interval::<T>(), unit_interval::<T>()), |(spec, u1, u2)| {
+    check(5000, (distribution(), unit_interval::<T>(), unit_interval::<T>()), |(spec, u1, u2)| {
         let surface = built::<T>(&spec)?;
         let m: [T; 3] = surface.sample_d([u1, u2].into()).into();
         is_unit(m, 3.0)?;
@@ -40,7 +43,7 @@ fn normals_are_of_the_upper_hemisphere<T: Scalar>() {
 }
 
 fn visible_normals_are_visible<T: Scalar>() {
-    let arguments = (visible_surface(), anywhere::<T>(), unit_interval::<T>(), unit_interval::<T>());
+    let arguments = (visible_distribution(), anywhere::<T>(), unit_interval::<T>(), unit_interval::<T>());
     check(6000, arguments, |(spec, w, u1, u2)| {
         let surface = built::<T>(&spec)?;
         // Next to the nadir nothing is visible: outside the domain.
