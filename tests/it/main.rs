@@ -13,6 +13,7 @@ mod accuracy;
 mod approximations;
 mod bad_input;
 mod elementary;
+mod ends;
 mod filter;
 mod hammer;
 mod identities;

@@ -86,11 +86,6 @@ impl Spec {
         !matches!(self.shape, Shape::Spline { .. } | Shape::Mixture { .. } | Shape::Heavy { .. })
     }
 
-    /// Whether the width of the surface is that of its map alone.
-    pub(crate) fn shape_invariant(&self) -> bool {
-        matches!(self.shape, Shape::Ggx | Shape::Beckmann | Shape::BeckmannTo1e6)
-    }
-
     /// Whether visible normals can be drawn.
     pub(crate) fn samples_visible(&self) -> bool {
         !matches!(self.shape, Shape::Spline { .. } | Shape::Halves { .. })

@@ -13,6 +13,7 @@ use crate::profile::gtr::integer::{
 };
 use crate::profile::gtr::measure::{Measure, Resolution, covered};
 use crate::profile::gtr::{visible, width};
+use crate::vector::below_one;
 
 /// The largest number of components.
 pub const MOST_COMPONENTS: usize = 48;
@@ -104,7 +105,7 @@ impl<T: Real> Components<T> {
     #[inline]
     pub(super) fn sample_visible(&self, v: [T; 3], [u1, u2]: [T; 2]) -> [T; 3] {
         let s2 = v[0] * v[0] + v[1] * v[1];
-        let (j, u2) = self.choose(s2, v[2], u2);
+        let (j, u2) = self.choose(s2, v[2], below_one(u2));
         let t = self.widths2[j];
         let root = t.sqrt();
         let stretched = [root * v[0], root * v[1], v[2]];
