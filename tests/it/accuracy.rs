@@ -4,6 +4,7 @@
 
 mod budget;
 mod nodes;
+pub(crate) mod search;
 
 use microsurface::fresnel::{Conductor, Dielectric, Fresnel, Spectrum};
 use microsurface::profile::gtr::Density;
