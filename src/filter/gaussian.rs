@@ -31,6 +31,7 @@ use crate::microsurface::Microsurface;
 use crate::ndf::{Ndf, SampleNdf, SampleVndf, Vec2, Vec3};
 use crate::profile::beckmann::Beckmann;
 use crate::profile::ggx::Ggx;
+use crate::vector::{at_least_cosine, below_one, positive_part};
 
 /// GGX(1) as a GGX of this squared width, whose weight is its inverse, …
 const TAIL: f64 = 8.0;
@@ -193,15 +194,10 @@ impl<T: Real, const N: usize> FilteredGgx<T, N> {
         of_tail: impl Fn(&Microsurface<Ggx, Linear<T>>) -> T,
         of_core: impl Fn(&Microsurface<Beckmann, Linear<T>>) -> T,
     ) -> T {
+        // A kernel too narrow to matter leaves cores of weight 0, which must not count where Λ is infinite.
+        let part = |weight: T, value: T| if weight > T::ZERO { weight * value } else { T::ZERO };
         let tail = self.tail.0 * of_tail(&self.tail.1);
-        self.cores.iter().fold(tail, |sum, (weight, core)| sum + *weight * of_core(core))
-    }
-
-    /// No facets fewer than those of a flat surface: the rounding of the weights and of their sum.
-    #[inline(always)]
-    fn at_least_cosine(w: T::Vec3, sigma: T) -> T {
-        let [_, _, z]: [T; 3] = w.into();
-        if sigma < z { z } else { sigma }
+        self.cores.iter().fold(tail, |sum, (weight, core)| sum + part(*weight, of_core(core)))
     }
 
     /// The component that u falls on by these shares, and how far it falls into it; N is the tail.
@@ -215,15 +211,14 @@ impl<T: Real, const N: usize> FilteredGgx<T, N> {
         let shares = self.cores.map(|(weight, core)| weight * of_core(&core));
         let of_tail = self.tail.0 * of_tail;
         let total = shares.iter().fold(of_tail, |sum, &share| sum + share);
-        let largest = T::ONE - T::HALF * T::EPSILON;
-        let mut rest = u * total;
+        let mut rest = below_one(u) * total;
         for (i, &share) in shares.iter().enumerate() {
             if rest < share {
-                return (i, (rest / share).min(largest));
+                return (i, below_one(rest / share));
             }
             rest -= share;
         }
-        (N, (rest / of_tail).max(T::ZERO).min(largest))
+        (N, below_one(positive_part(rest / of_tail)))
     }
 }
 
@@ -248,18 +243,22 @@ impl<T: Real, const N: usize> Ndf for FilteredGgx<T, N> {
     #[inline(always)]
     fn sigma(&self, w: Vec3<Self>) -> T {
         let sigma = self.weighted(|tail| tail.sigma(w), |core| core.sigma(w));
-        Self::at_least_cosine(w, sigma)
+        at_least_cosine(w.into(), sigma)
     }
 
     #[inline(always)]
     fn sigma_above(&self, w: Vec3<Self>) -> T {
         let sigma = self.weighted(|tail| tail.sigma_above(w), |core| core.sigma_above(w));
-        Self::at_least_cosine(w, sigma)
+        at_least_cosine(w.into(), sigma)
     }
 
     #[inline(always)]
     fn lambda(&self, w: Vec3<Self>) -> T {
-        self.weighted(|tail| tail.lambda(w), |core| core.lambda(w))
+        // Of the side above, whose sum is without cancellation; Λ(−w) = −1 − Λ(w) holds to the last bit.
+        let [x, y, z]: [T; 3] = w.into();
+        let up = [x, y, z.abs()].into();
+        let lambda = self.weighted(|tail| tail.lambda(up), |core| core.lambda(up));
+        if z < T::ZERO { -T::ONE - lambda } else { lambda }
     }
 }
 

@@ -70,8 +70,15 @@ fn lambda_is_that_of_the_projected_area<T: Scalar>() {
             return Ok(());
         }
         let below = surface.lambda(w.map(|c| -c).into());
-        prop_assert_eq!(below, -T::ONE - lambda);
-        if lambda.is_finite() {
+        if matches!(spec.shape, Shape::Halves { .. }) {
+            // A mean of two that are reflected, not a reflected mean.
+            near("Λ(−w) and −1 − Λ(w)", below, -T::ONE - lambda, 2.0)?;
+        } else {
+            prop_assert_eq!(below, -T::ONE - lambda);
+        }
+        // A wrapped surface has Λ of a product with z, which has no digits where it is subnormal.
+        let digits = !matches!(spec.moved, Move::Wrap(_)) || w[2] > T::MIN_POSITIVE / T::EPSILON;
+        if lambda.is_finite() && digits {
             near(
                 "z (1 + Λ) and σ",
                 w[2] * (T::ONE + lambda),
