@@ -68,12 +68,17 @@ pub enum Error {
         /// The stretch given.
         value: f64,
     },
-    /// A refractive index η or n is not positive and finite.
+    /// A reflectance at normal incidence is not within 0 … 1.
+    Reflectance {
+        /// The reflectance given.
+        value: f64,
+    },
+    /// A refractive index η or n is not positive, not finite, or above what the constructor covers.
     RefractiveIndex {
         /// The index given.
         value: f64,
     },
-    /// An extinction coefficient k is negative or not finite.
+    /// An extinction coefficient k is negative, not finite, or above what the constructor covers.
     Extinction {
         /// The coefficient given.
         value: f64,
@@ -118,11 +123,12 @@ impl fmt::Display for Error {
             }
             Self::Mesh { triangle } => write!(f, "triangle {triangle} names a vertex that does not exist"),
             Self::Stretch { value } => write!(f, "stretch = {value} is not inside (-1, 1)"),
+            Self::Reflectance { value } => write!(f, "reflectance = {value} is not a number in [0, 1]"),
             Self::RefractiveIndex { value } => {
-                write!(f, "refractive index = {value} is not positive and finite")
+                write!(f, "refractive index = {value} is not positive, or too large")
             }
             Self::Extinction { value } => {
-                write!(f, "extinction coefficient = {value} is negative or not finite")
+                write!(f, "extinction coefficient = {value} is negative, or too large")
             }
             Self::Parameter { name, value } => write!(f, "{name} = {value} is outside its domain"),
         }

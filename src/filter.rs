@@ -35,7 +35,7 @@
 //! use microsurface::filter::jacobian::{Curvature, HalfVector, Motion};
 //! use microsurface::filter::ray::RayDifferential;
 //! use microsurface::{Ggx, frame::Frame, fresnel::Schlick, glam::Vec3};
-//! let metal = RoughConductor::new(Ggx::isotropic(0.01_f32)?, Schlick::new(0.9_f32));
+//! let metal = RoughConductor::new(Ggx::isotropic(0.01_f32)?, Schlick::new(0.9_f32)?);
 //! let (eye, light) = (Vec3::new(0.0, 0.0, 5.0), Vec3::new(0.3, 0.0, 6.0));
 //! // The ray hits the pole of the unit ball about the origin.
 //! let (point, normal, distance) = (Vec3::Z, Vec3::Z, 4.0);

@@ -15,7 +15,7 @@ mod isotropic;
 mod linear;
 
 pub use axis_aligned::AxisAligned;
-pub(crate) use gram::{Gram, difference_of_products, invertible};
+pub(crate) use gram::{Gram, difference_of_products, invertible, two_product, two_sum};
 pub use isotropic::Isotropic;
 pub use linear::Linear;
 pub(crate) use linear::moved;

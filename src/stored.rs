@@ -63,6 +63,7 @@
 //! ```
 
 mod bsdf;
+mod fresnel;
 mod map;
 mod name;
 mod profile;

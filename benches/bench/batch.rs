@@ -245,7 +245,7 @@ fn scalar<T: Elementary>(criterion: &mut Criterion, n: usize) {
         ],
     );
 
-    let fresnel = Schlick::new(black_box(T::lit(F0)));
+    let fresnel = Schlick::new(black_box(T::lit(F0))).expect("a share");
     let ggx = RoughConductor::new(ggx, fresnel);
     let beckmann = RoughConductor::new(beckmann, fresnel);
     let heavy = RoughConductor::new(heavy, fresnel);

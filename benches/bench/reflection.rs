@@ -85,7 +85,7 @@ fn conductors<T: Spectrum<Scalar = T> + Real, N: Ndf<Scalar = T> + Copy, S: Copy
     surfaces: &[N],
     sampling: S,
 ) -> Vec<RoughConductor<N, Schlick<T>, S>> {
-    let fresnel = Schlick::new(T::lit(F0));
+    let fresnel = Schlick::new(T::lit(F0)).expect("a share");
     surfaces.iter().map(|&surface| RoughConductor::new(surface, fresnel).sampled_by(sampling)).collect()
 }
 

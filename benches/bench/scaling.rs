@@ -210,7 +210,7 @@ fn halves<'a, T>(read: Read<'a, T>, written: Written<'a, T>) -> [(Read<'a, T>, W
 }
 
 fn brdf<N: Ndf<Scalar: Spectrum>>(surface: N) -> RoughConductor<N, Schlick<N::Scalar>> {
-    RoughConductor::new(surface, Schlick::new(N::Scalar::lit(F0)))
+    RoughConductor::new(surface, Schlick::new(N::Scalar::lit(F0)).expect("a share"))
 }
 
 type Surface<P, M> = Microsurface<P, M>;

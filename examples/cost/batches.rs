@@ -22,7 +22,7 @@ type Written<'a> = [&'a mut [f32]; 3];
 
 pub(crate) fn batches(arguments: &Rc<[Arguments<f32>]>) -> Result<Vec<Row>, Error> {
     let ggx = Ggx::isotropic(0.3_f32)?;
-    let (metal, gaussian) = (Schlick::new(0.9_f32), Beckmann::isotropic(0.3_f32)?);
+    let (metal, gaussian) = (Schlick::new(0.9_f32)?, Beckmann::isotropic(0.3_f32)?);
     let (ggx_brdf, beckmann_brdf) = (RoughConductor::new(ggx, metal), RoughConductor::new(gaussian, metal));
     Ok(vec![
         row(

@@ -89,7 +89,7 @@ fn functions<T: Real + Spectrum<Scalar = T>, N: SampleVndf + Ndf<Scalar = T> + C
     surface: N,
     arguments: &Rc<[Arguments<T>]>,
 ) -> [(&'static str, Kernel); 9] {
-    let brdf = RoughConductor::new(surface, Schlick::new(T::lit(F0)));
+    let brdf = RoughConductor::new(surface, Schlick::new(T::lit(F0)).expect("a share"));
     [
         ("d", Kernel::of_calls(surface, arguments, |n, a| n.d(a.wm))),
         ("sigma", Kernel::of_calls(surface, arguments, |n, a| n.sigma(a.wo))),
@@ -105,7 +105,7 @@ fn functions<T: Real + Spectrum<Scalar = T>, N: SampleVndf + Ndf<Scalar = T> + C
 
 /// f of a surface with Schlick's Fresnel term.
 fn eval<N: Ndf<Scalar = f32> + 'static>(name: &str, surface: N, arguments: &Rc<[Arguments<f32>]>) -> Row {
-    let brdf = RoughConductor::new(surface, Schlick::new(0.9_f32));
+    let brdf = RoughConductor::new(surface, Schlick::new(0.9_f32).expect("a share"));
     let kernel = Kernel::of_calls(brdf, arguments, |f, a| f.eval(a.wi, a.wo));
     Row { name: name.into(), kernels: vec![kernel] }
 }
@@ -118,7 +118,7 @@ fn surfaces(arguments: &Rc<[Arguments<f32>]>) -> Result<Vec<Row>, Error> {
     let turned = RoughnessMatrix::rotated(0.2_f32, 0.4, 0.5)?;
     let footprint = Footprint::<f32>::new(Vec2::new(0.1, 0.02), Vec2::new(-0.03, 0.06));
     let covariance: Covariance<f32> = footprint.covariance(0.25);
-    let chrome = RoughConductor::new(isotropic, Schlick::new(0.9_f32));
+    let chrome = RoughConductor::new(isotropic, Schlick::new(0.9_f32)?);
     let over = Kernel::of_calls(chrome, arguments, move |f, a| f.eval_over(a.wi, a.wo, &footprint));
     Ok(vec![
         eval("`isotropic`", isotropic, arguments),
@@ -162,8 +162,8 @@ fn spectra(arguments: &Rc<[Arguments<f32>]>) -> Result<Vec<Row>, Error> {
         row(
             "`Schlick`",
             vec![
-                of_fresnel(surface, Schlick::new(n.x), arguments),
-                of_fresnel(surface, Schlick::new(n), arguments),
+                of_fresnel(surface, Schlick::new(n.x)?, arguments),
+                of_fresnel(surface, Schlick::new(n)?, arguments),
             ],
         ),
         row(

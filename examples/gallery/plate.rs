@@ -41,7 +41,7 @@ fn silver(uv: Vec2) -> Schlick<Vec3> {
     const HALF_WIDTH: f32 = 0.025;
     let cells = uv * 10.0;
     let on_line = (cells - cells.round()).abs().min_element() < HALF_WIDTH;
-    Schlick::new(SILVER * if on_line { 0.45 } else { 1.0 })
+    Schlick::new(SILVER * if on_line { 0.45 } else { 1.0 }).expect("a share")
 }
 
 /// The plate moved by a matrix about its centre.

@@ -145,7 +145,7 @@ impl<T: Scalar> Questions<T> {
     where
         N: SampleVndf<Scalar = T> + Copy + 'static,
     {
-        let brdf = RoughConductor::new(surface, Schlick::new(T::lit(F0)));
+        let brdf = RoughConductor::new(surface, Schlick::new(T::lit(F0)).expect("a share"));
         let eval = format!("{name}: eval");
         let timed = self.pairs.timed(&[brdf], Eval).map(Some);
         self.row(&eval, "call and loop", of_eval, timed);
@@ -245,7 +245,7 @@ fn errors_of_normals<M>(
 /// A family's errors of radiance and of normals, those of the crate and of the textbook, from the family in f64.
 fn exact_eval<N: Ndf<Scalar = f64>>(surface: N, at: [f64; 6]) -> f64 {
     let [ix, iy, iz, ox, oy, oz] = at;
-    RoughConductor::new(surface, Schlick::new(f64::from(f32::lit(F0))))
+    RoughConductor::new(surface, Schlick::new(f64::from(f32::lit(F0))).expect("a share"))
         .eval([ix, iy, iz].into(), [ox, oy, oz].into())
 }
 
@@ -267,7 +267,8 @@ where
     N: SampleVndf<Scalar = f32> + Copy + 'static,
     W: SampleVndf<Scalar = f64> + Copy,
 {
-    let brdf = |alpha| RoughConductor::new(single(f32::lit(alpha)), Schlick::new(f32::lit(F0)));
+    let brdf =
+        |alpha| RoughConductor::new(single(f32::lit(alpha)), Schlick::new(f32::lit(F0)).expect("a share"));
     let wide = |alpha: f64| double(f32::lit(alpha).into());
     [
         errors_of_eval(effort, brdf, Eval, |alpha, at| exact_eval(wide(alpha), at)),

@@ -7,8 +7,11 @@ use microsurface::{Beckmann, Error, Ggx, Isotropic, Microsurface};
 
 /// The roughness of both.
 pub(crate) const ALPHA: f32 = 0.01;
-/// Of the conductor.
-pub(crate) const FRESNEL: Schlick<f32> = Schlick::new(0.8);
+
+/// What the conductor reflects.
+pub(crate) fn fresnel() -> Schlick<f32> {
+    Schlick::new(0.8).expect("a share")
+}
 
 /// A surface before it is filtered.
 pub(crate) type Surface<P> = Microsurface<P, Isotropic<f32>>;
@@ -23,8 +26,8 @@ impl Materials {
 
     pub(crate) fn new() -> Result<Self, Error> {
         Ok(Self {
-            beckmann: RoughConductor::new(Beckmann::isotropic(ALPHA)?, FRESNEL),
-            ggx: RoughConductor::new(Ggx::isotropic(ALPHA)?, FRESNEL),
+            beckmann: RoughConductor::new(Beckmann::isotropic(ALPHA)?, fresnel()),
+            ggx: RoughConductor::new(Ggx::isotropic(ALPHA)?, fresnel()),
         })
     }
 

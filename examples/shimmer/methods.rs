@@ -11,7 +11,7 @@ use microsurface::fresnel::Fresnel;
 use microsurface::profile::{Profile, ShapeInvariant};
 use microsurface::{AxisAligned, Beckmann, Error, Ggx, Isotropic, Microsurface, Ndf};
 
-use crate::materials::{ALPHA, FRESNEL, Surface};
+use crate::materials::{ALPHA, Surface, fresnel};
 use crate::pixel::{Pixel, Steps};
 
 /// Writes the radiance of each pixel.
@@ -61,7 +61,7 @@ pub(crate) fn methods() -> Result<[Vec<Method>; 2], Error> {
 
 /// Filters while shading, from the differences of quads, for every profile.
 fn forward<P: MeanOverParallelogram<f32> + ShapeInvariant + 'static>(surface: Surface<P>) -> Vec<Method> {
-    let unfiltered = RoughConductor::new(surface, FRESNEL);
+    let unfiltered = RoughConductor::new(surface, fresnel());
     vec![
         method(UNFILTERED, move |p| unfiltered.eval(p.wi, p.wo)),
         filtered(SLOPES, surface, |p| slopes(&p.quad).covariance(VARIANCE_KAPLANYAN2016 as f32)),
@@ -162,7 +162,7 @@ fn parallelogram<P: MeanOverParallelogram<f32> + 'static>(
     surface: Surface<P>,
     footprint: impl Fn(&Pixel) -> Footprint<f32> + 'static,
 ) -> Method {
-    let material = RoughConductor::new(surface, FRESNEL);
+    let material = RoughConductor::new(surface, fresnel());
     method(name, move |p| material.eval_over(p.wi, p.wo, &footprint(p)))
 }
 
@@ -173,7 +173,7 @@ fn averaged(surface: &impl Ndf<Scalar = f32>, mean_p22: f32, p: &Pixel) -> f32 {
     }
     let z2 = p.m.z * p.m.z;
     let masked = surface.g2(p.wi, p.wo, p.m) / (4.0 * p.wi.z * p.wo.z);
-    FRESNEL.reflectance(p.wo.dot(p.m)) * (mean_p22 / (z2 * z2)) * masked
+    fresnel().reflectance(p.wo.dot(p.m)) * (mean_p22 / (z2 * z2)) * masked
 }
 
 /// An isotropic surface of an α of each pixel.
@@ -187,5 +187,5 @@ fn isotropic<P: Profile<f32> + 'static>(
 
 /// The BRDF of a surface made for this pixel. NaN, which the claims find, if it was refused.
 fn reflected<N: Ndf<Scalar = f32>>(surface: Result<N, Error>, p: &Pixel) -> f32 {
-    surface.map_or(f32::NAN, |surface| RoughConductor::new(surface, FRESNEL).eval(p.wi, p.wo))
+    surface.map_or(f32::NAN, |surface| RoughConductor::new(surface, fresnel()).eval(p.wi, p.wo))
 }

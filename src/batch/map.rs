@@ -27,7 +27,7 @@ use crate::batch::material::{Shared, each_of};
 /// });
 /// assert!(alpha[0] > 0.01 && alpha[1] > 0.2);
 ///
-/// let chrome = RoughConductor::new(Ggx::isotropic(0.01_f32)?, Schlick::new(0.6_f32));
+/// let chrome = RoughConductor::new(Ggx::isotropic(0.01_f32)?, Schlick::new(0.6_f32)?);
 /// let wi = Directions { x: &[-0.6; 2], y: &[0.0; 2], z: &[0.8; 2] };
 /// let wo = Directions { x: &[0.6; 2], y: &[0.0; 2], z: &[0.8; 2] };
 /// let mut f = [0.0; 2];

@@ -32,13 +32,13 @@ use crate::roughness::{RoughnessMatrix, alpha_range, mirror_alpha};
 /// ```
 /// use microsurface::batch::{Alphas, Directions, ReflectionBatch, Varied};
 /// use microsurface::{Ggx, bsdf::RoughConductor, fresnel::Schlick, glam::Vec3};
-/// let metal = RoughConductor::new(Ggx::isotropic(0.2_f32)?, Schlick::new(0.9_f32));
+/// let metal = RoughConductor::new(Ggx::isotropic(0.2_f32)?, Schlick::new(0.9_f32)?);
 /// let wi = Directions { x: &[-0.6, 0.0], y: &[0.0, 0.6], z: &[0.8, 0.8] };
 /// let wo = Directions { x: &[0.6, 0.0], y: &[0.0, -0.6], z: &[0.8, 0.8] };
 /// let textured = Varied::new(&metal, Alphas::new(&[0.1, 0.4])?);
 /// let mut f = [0.0; 2];
 /// textured.eval_batch(wi, wo, &mut f);
-/// let rough = RoughConductor::new(Ggx::isotropic(0.4_f32)?, Schlick::new(0.9_f32));
+/// let rough = RoughConductor::new(Ggx::isotropic(0.4_f32)?, Schlick::new(0.9_f32)?);
 /// assert_eq!(f[1], rough.eval(Vec3::new(0.0, 0.6, 0.8), Vec3::new(0.0, -0.6, 0.8)));
 /// # Ok::<(), microsurface::Error>(())
 /// ```
@@ -174,7 +174,7 @@ fn check_alphas<T: Real>(alphas: &[T]) -> Result<(), Error> {
 /// let mut d = [0.0; 2];
 /// let up = Directions { x: &[0.0; 2], y: &[0.0; 2], z: &[1.0; 2] };
 /// Varied::new(&surface, Alphas::clamped(&texels)).d_batch(up, &mut d);
-/// assert_eq!(d, [mirror_alpha(), 0.4].map(|alpha| Ggx::isotropic(alpha).unwrap().d(Vec3::Z)));
+/// assert_eq!(d, [mirror_alpha(), 0.4_f32].map(|alpha| Ggx::isotropic(alpha).unwrap().d(Vec3::Z)));
 /// # Ok::<(), microsurface::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]

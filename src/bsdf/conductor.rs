@@ -24,13 +24,13 @@ use crate::vector::dot;
 /// # Special cases
 /// A direction at or below the horizon → f = pdf = 0 and no sample. Where |wi + wo|² < 2⁻⁶⁴ (f32) or 2⁻⁵¹² (f64),
 /// which unit vectors above the horizon reach only within 3e-10 (f32) of it and opposite to each other → 0. f itself
-/// grows without bound as both directions approach the horizon, and overflows to ∞ once 4 zi zo/G2 is smaller
-/// than D over the largest number of the scalar; f wi.z does not.
+/// grows without bound as both directions approach the horizon, and is held at the largest number of the scalar
+/// once 4 zi zo/G2 is smaller than D over that; f wi.z does not overflow.
 ///
 /// # Example
 /// ```
 /// use microsurface::{Ggx, bsdf::RoughConductor, fresnel::Schlick, glam::{Vec2, Vec3}};
-/// let gold = RoughConductor::new(Ggx::isotropic(0.2_f32)?, Schlick::new(Vec3::new(1.0, 0.78, 0.34)));
+/// let gold = RoughConductor::new(Ggx::isotropic(0.2_f32)?, Schlick::new(Vec3::new(1.0, 0.78, 0.34))?);
 /// let wo = Vec3::new(0.6, 0.0, 0.8);
 /// let sample = gold.sample(wo, Vec2::new(0.4, 0.6)).expect("above the horizon");
 /// let f = gold.eval(sample.wi, wo);
@@ -108,6 +108,12 @@ impl<N, F, S> RoughConductor<N, F, S> {
     }
 }
 
+/// A value beyond the scalar is its largest number, so that a reflectance of 0 stays 0; NaN stays NaN.
+#[inline(always)]
+fn finite<T: Real>(f: T) -> T {
+    if f > T::MAX { T::MAX } else { f }
+}
+
 /// The half vector wi + wo, not normalised, and whether anything is reflected.
 struct Half<T> {
     h: [T; 3],
@@ -156,7 +162,7 @@ where
         let half = Half::<N::Scalar>::new(wi.into(), wo.into());
         let per_d = [Self::quarter(), self.surface.masked_cosines(wi, wo)];
         let f = self.surface.d_along_times(half.h.into(), per_d);
-        self.fresnel.reflectance(half.cosine()).scaled(half.select(f))
+        self.fresnel.reflectance(half.cosine()).scaled(half.select(finite(f)))
     }
 
     /// ¼ in the scale of the masked cosines.
@@ -185,7 +191,7 @@ where
     /// # Example
     /// ```
     /// use microsurface::{Ggx, bsdf::RoughConductor, filter::Footprint, fresnel::Schlick, glam::{Vec2, Vec3}};
-    /// let chrome = RoughConductor::new(Ggx::isotropic(0.01_f32)?, Schlick::new(0.6_f32));
+    /// let chrome = RoughConductor::new(Ggx::isotropic(0.01_f32)?, Schlick::new(0.6_f32)?);
     /// let (wi, wo) = (Vec3::new(0.6, 0.0, 0.8), Vec3::new(-0.535, 0.0, 0.8448521));
     /// // The highlight is beside the centre of the pixel, and within it.
     /// let pixel = Footprint::<f32>::new(Vec2::new(0.1, 0.0), Vec2::new(0.0, 0.1));
@@ -210,7 +216,7 @@ where
         let f = Self::quarter() * (mean * secant2 * secant2) / self.surface.masked_cosines(wi, wo);
         // At the very horizon the mean is 0 and the secant may be infinite.
         let f = if mean == M::Scalar::ZERO { mean } else { f };
-        self.fresnel.reflectance(half.cosine()).scaled(half.select(f))
+        self.fresnel.reflectance(half.cosine()).scaled(half.select(finite(f)))
     }
 }
 

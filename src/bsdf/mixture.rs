@@ -38,7 +38,7 @@ use crate::vector::{below_one, normalized};
 /// use microsurface::bsdf::{AllNormals, RoughConductor, UniformMixture};
 /// use microsurface::{Gtr, fresnel::Schlick, glam::{Vec2, Vec3}};
 /// let (alpha, gamma) = (0.5_f32, 1.5);
-/// let rough = RoughConductor::new(Gtr::spline(alpha, gamma)?, Schlick::new(0.9_f32));
+/// let rough = RoughConductor::new(Gtr::spline(alpha, gamma)?, Schlick::new(0.9_f32)?);
 /// let mixed = rough.sampled_by(UniformMixture::for_alpha(AllNormals, alpha)?);
 /// let wo = Vec3::new(0.6, 0.0, 0.8);
 /// // The last numbers of [0, 1) belong to uniform directions: wi.z = (1 − u.x)/p.

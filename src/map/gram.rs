@@ -69,16 +69,21 @@ pub(crate) fn invertible<T: Real>([[a, b], [c, d]]: [[f64; 2]; 2]) -> Result<f64
 pub(crate) fn difference_of_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
     let (p, p_error) = two_product(a, b);
     let (q, q_error) = two_product(c, d);
-    let difference = p - q;
-    // The rounding error of p − q, exactly (Knuth's two-sum), then those of the products.
-    let virtual_q = p - difference;
-    let error = (p - (difference + virtual_q)) + (virtual_q - q);
+    let (difference, error) = two_sum(p, -q);
     difference + (error + (p_error - q_error))
+}
+
+/// a + b as a rounded sum and its exact error (Knuth).
+#[inline(always)]
+pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    let of_b = sum - a;
+    (sum, (a - (sum - of_b)) + (b - of_b))
 }
 
 /// a·b as a rounded product and its exact error.
 #[inline(always)]
-fn two_product(a: f64, b: f64) -> (f64, f64) {
+pub(crate) fn two_product(a: f64, b: f64) -> (f64, f64) {
     let halves = |x: f64| {
         let t = 134217729.0 * x; // 2²⁷ + 1
         let high = t - (t - x);

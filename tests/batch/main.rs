@@ -256,7 +256,7 @@ fn everything<T: Elementary>() {
     one(quick, |m, len, at| samples(m, len, at));
 
     let glass = Dielectric::new(l(1.5)).unwrap();
-    let rough = ggx.map(|surface| RoughConductor::new(surface, Schlick::new(l(0.9))));
+    let rough = ggx.map(|surface| RoughConductor::new(surface, Schlick::new(l(0.9)).unwrap()));
     one(rough, |m, len, at| reflects(m, len, at));
     slice(rough, |m, len, at| reflects(m, len, at));
     one(beckmann.map(|surface| RoughConductor::new(surface, glass)), |m, len, at| reflects(m, len, at));
@@ -347,7 +347,7 @@ fn slopes_of_borrowed_and_of_mixed_beckmann() {
 fn slices_of_unequal_lengths_panic_before_anything_is_written() {
     const LEN: usize = 65;
     let surface = Ggx::isotropic(0.3_f64).unwrap();
-    let brdf = RoughConductor::new(surface, Schlick::new(0.9));
+    let brdf = RoughConductor::new(surface, Schlick::new(0.9).unwrap());
     let a = Arguments::<f64>::new(LEN + 1, 4);
     for wrong in [0, LEN - 1, LEN + 1] {
         for odd in 0..10 {

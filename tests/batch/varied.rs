@@ -58,7 +58,7 @@ fn textures<T: Elementary>(len: usize) {
     samples(&textured, len, &at);
 
     let [x, y] = &slices(len, width::<T>);
-    let fresnel = Schlick::new(T::lit(0.9));
+    let fresnel = Schlick::new(T::lit(0.9)).unwrap();
     let plastic = RoughConductor::new(Beckmann::isotropic(T::lit(0.2)).unwrap(), fresnel);
     reflects(&Varied::new(&plastic, AlphaPairs::new(x, y).unwrap()), len, &|i| {
         RoughConductor::new(Beckmann::anisotropic(width::<T>(i, 0), width(i, 1)).unwrap(), fresnel)
@@ -80,7 +80,7 @@ fn filters<T: Elementary>(len: usize) {
     let beckmann = Beckmann::anisotropic(T::lit(0.01), T::lit(0.1)).unwrap();
     let by = Filtered::new(footprints(steps), variance).unwrap();
     let filtered = |i| beckmann.filtered(footprint::<T>(i).covariance(variance)).unwrap();
-    let fresnel = Schlick::new(T::lit(0.9));
+    let fresnel = Schlick::new(T::lit(0.9)).unwrap();
     let plastic = RoughConductor::new(beckmann, fresnel);
     reflects(&Varied::new(&plastic, by), len, &|i| RoughConductor::new(filtered(i), fresnel));
 

@@ -3,7 +3,7 @@
 mod evaluation;
 
 use microsurface::bsdf::{AllNormals, UniformMixture};
-use microsurface::fresnel::{Conductor, Dielectric};
+use microsurface::fresnel::{Conductor, Dielectric, Schlick};
 use microsurface::glam::{DMat2, DVec3};
 use microsurface::profile::gtr::Density;
 use microsurface::profile::gtr::components::Components;
@@ -245,7 +245,17 @@ fn fresnel_terms_are_refused() {
         let Some(Error::Extinction { value }) = Conductor::new(1.0, k).err() else { panic!("{k}") };
         assert_eq!(value.to_bits(), k.to_bits());
     }
-    assert!(Conductor::new(0.2, 0.0).is_ok());
+    assert!(Conductor::new(0.2, 0.0).is_ok() && Conductor::new(1e9_f32, 1e9).is_ok());
+    for large in [1.1e9, f64::MAX] {
+        assert_eq!(Conductor::new(large, 1.0), Err(Error::RefractiveIndex { value: large }));
+        assert_eq!(Conductor::new(1.0, large), Err(Error::Extinction { value: large }));
+    }
+    for f0 in [-1e-9, 1.000001, 7.5, f64::NAN, f64::INFINITY] {
+        let Some(Error::Reflectance { value }) = Schlick::new(f0).err() else { panic!("{f0}") };
+        assert_eq!(value.to_bits(), f0.to_bits());
+        assert!(Schlick::new(DVec3::new(0.5, f0, 1.0)).is_err());
+    }
+    assert!(Schlick::new(0.0).is_ok() && Schlick::new(DVec3::ONE).is_ok());
 }
 
 #[test]

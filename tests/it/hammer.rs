@@ -68,6 +68,17 @@ impl Random {
         }
     }
 
+    /// A refractive index: of glass, next to 1, or of any size.
+    fn index(&mut self, largest: f64) -> f64 {
+        let sign = if self.below(2) == 0 { 1.0 } else { -1.0 };
+        match self.below(4) {
+            0 => 1.0,
+            1 => self.within(0.2, 5.0),
+            2 => 1.0 + sign * self.decades(-17.0, -1.0),
+            _ => self.decades(-largest, largest),
+        }
+    }
+
     fn correlation(&mut self) -> f64 {
         let sign = if self.below(2) == 0 { 1.0 } else { -1.0 };
         sign * if self.below(2) == 0 { self.unit() } else { 1.0 - self.decades(-6.0, 0.0) }
@@ -307,7 +318,7 @@ impl<T: Scalar> Round<'_, T> {
         bounded: bool,
     ) {
         let (wi, wo, u): (T::Vec3, T::Vec3, T::Vec2) = (self.wi.into(), self.wo.into(), self.u.into());
-        self.number(&format!("{name} eval"), brdf.eval(wi, wo), Range::MayOverflow);
+        self.number(&format!("{name} eval"), brdf.eval(wi, wo), Range::Finite);
         let h: [T; 3] = core::array::from_fn(|k| self.wi[k] + self.wo[k]);
         self.number(&format!("{name} pdf"), brdf.pdf(wi, wo), pdf_range(self.surface, h, bounded));
         self.defects.evaluations += 1;
@@ -373,14 +384,17 @@ fn rounds<T: Scalar>(defects: &mut Defects, random: &mut Random, spec: Spec) {
     if beyond_the_scalar::<T>(&spec) {
         return;
     }
-    let schlick = RoughConductor::new(surface.clone(), Schlick::new(T::lit(0.04)));
-    let glass = RoughConductor::new(surface.clone(), Dielectric::new(T::lit(1.5)).expect("glass"));
-    let copper = Conductor::new(T::lit(0.21), T::lit(3.67)).expect("copper");
-    let copper = RoughConductor::new(surface.clone(), copper).sampled_by(AllNormals);
+    let schlick = Schlick::new(random.number::<T>().min(T::ONE)).expect("a share");
+    let glass = Dielectric::new(T::lit(random.index(37.0))).expect("an index");
+    let glass = RoughConductor::new(surface.clone(), glass);
+    let absorbs = if random.below(2) == 0 { 0.0 } else { random.index(8.9) };
+    let metal = Conductor::new(T::lit(random.index(8.9)), T::lit(absorbs)).expect("indices");
+    let metal = RoughConductor::new(surface.clone(), metal).sampled_by(AllNormals);
     // p = 0, both ends of what is left of the rounding, and anything between.
     let probability = random.number::<T>().min(T::BELOW_ONE);
     let mixture = UniformMixture::new(AllNormals, probability).expect("below 1");
-    let mixed = RoughConductor::new(surface.clone(), Schlick::new(T::lit(0.04))).sampled_by(mixture);
+    let mixed = RoughConductor::new(surface.clone(), schlick).sampled_by(mixture);
+    let schlick = RoughConductor::new(surface.clone(), schlick);
     for _ in 0..8 {
         let wo = random.direction();
         let (wi, wm) = (random.partner(wo), random.partner(wo));
@@ -391,7 +405,7 @@ fn rounds<T: Scalar>(defects: &mut Defects, random: &mut Random, spec: Spec) {
             round.reflection("Schlick", &schlick, true);
             round.reflection("dielectric", &glass, true);
         }
-        round.reflection("conductor, all normals", &copper, false);
+        round.reflection("conductor, all normals", &metal, false);
         round.reflection("mixture", &mixed, false);
     }
 }

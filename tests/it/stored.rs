@@ -44,9 +44,9 @@ fn surfaces_come_back_unchanged() {
         comes_back(&Gtr::heavy_tailed::<6>(alpha, 1.2).unwrap());
         comes_back(&Gtr::spline(alpha, 1.7).unwrap().stretched(-0.2).unwrap());
         comes_back(&RoughConductor::new(ggx, Conductor::new(0.2, 3.7).unwrap()));
-        comes_back(&RoughConductor::new(moved, Schlick::new(0.04)));
+        comes_back(&RoughConductor::new(moved, Schlick::new(0.04).unwrap()));
         let mixture = UniformMixture::new(AllNormals, alpha).unwrap();
-        comes_back(&RoughConductor::new(ggx, Schlick::new(0.04)).sampled_by(mixture));
+        comes_back(&RoughConductor::new(ggx, Schlick::new(0.04).unwrap()).sampled_by(mixture));
         comes_back(&UniformMixture::new(UniformMixture::new(VisibleNormals, 0.3_f32).unwrap(), 0.7).unwrap());
         comes_back(&Ggx::isotropic(alpha as f32).unwrap());
         let narrow = RoughnessMatrix::rotated(1.0_f32, 1e-3 * alpha as f32, 1.0225885).unwrap();
@@ -94,7 +94,7 @@ fn maps_are_authored_by_their_widths() {
         "surface = { profile.name = \"ggx\", map.alpha = 0.2 }\nfresnel = { name = \"schlick\", f0 = 0.04 }",
     )
     .unwrap();
-    assert_eq!(brdf, RoughConductor::new(Ggx::isotropic(0.2).unwrap(), Schlick::new(0.04)));
+    assert_eq!(brdf, RoughConductor::new(Ggx::isotropic(0.2).unwrap(), Schlick::new(0.04).unwrap()));
 }
 
 /// The file of one distribution is not read as another, nor one that says more or less than it may.
@@ -143,7 +143,7 @@ fn other_materials_are_refused() {
          sampling = { name = \"all_normals\" }",
         "visible_normals",
     );
-    says::<Schlick<f64>>("name = \"schlick\"\nf0 = 7.5", "f0 = 7.5");
+    says::<Schlick<f64>>("name = \"schlick\"\nf0 = 7.5", "reflectance = 7.5 is not");
     says::<Dielectric<f64>>("name = \"schlick\"\neta = 1.5", "expected dielectric");
 }
 

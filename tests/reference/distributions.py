@@ -568,6 +568,14 @@ def table_fresnel():
         add("dielectric", eta, 0.0, cosines + extra)
     for n, k in [(n, k) for _, _, n, k in METALS] + EXTREMES:
         add("conductor", f32(n), f32(k), cosines)
+    # The worst that searches found (tests/it/accuracy/search/fresnel.rs), and their neighbours.
+    for eta, c in [(8427.575, 0.56008047), (4184.7324, 0.49708629), (1 / 2.42, 0.9106317), (1 / 3.5, 0.95831484),
+                   (0.01, 1.0), (1e10, 0.3), (1e-12, 0.3), (1857335.875, 0.1433553)]:
+        add("dielectric", f32(eta), 0.0, [min(f32_step(f32(c), d), 1.0) for d in range(-10, 11)])
+    for n, k, c in [(4.1627717, 0.7366851, 3.4118883e-4), (33012.195, 7.2327547, 0.29055771), (8896.3096, 21.427801, 0.1192738935),
+                    (1 / 1.5, 0.0, 0.74535602),
+                    (1 / 1.5, 1e-12, 0.74535602)]:
+        add("conductor", f32(n), f32(k), [f32_step(f32(c), d) for d in range(-10, 11)])
     metals = "\n".join(f"           {m} {w} µm: n = {n}, k = {k}" for m, w, n, k in METALS)
     write("fresnel.tsv", f"""
 Exact Fresnel reflectance of a smooth interface (fractions of energy).

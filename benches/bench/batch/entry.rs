@@ -61,7 +61,7 @@ pub(super) fn bench<T: Elementary + Spectrum<Scalar = T>>(criterion: &mut Criter
     arguments.samples(
         criterion,
         "beckmann-to-1e-6",
-        RoughConductor::new(quick, Schlick::new(black_box(T::lit(F0)))),
+        RoughConductor::new(quick, Schlick::new(black_box(T::lit(F0))).expect("a share")),
     );
     arguments.ask(criterion, "gtr-8-nodes-1.5", Gtr::isotropic(alpha, gamma).expect("a width"));
 }
@@ -192,7 +192,7 @@ impl<T: Elementary + Spectrum<Scalar = T>> Arguments<T> {
             &mut |out| surface.sigma_batch(wo_batch, out),
         );
 
-        let brdf = RoughConductor::new(surface, Schlick::new(black_box(T::lit(F0))));
+        let brdf = RoughConductor::new(surface, Schlick::new(black_box(T::lit(F0))).expect("a share"));
         compare_levels::<T>(
             criterion,
             &format!("entry_eval_{name}"),

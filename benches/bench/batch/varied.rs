@@ -27,7 +27,7 @@ pub(super) fn bench<T: Real + Spectrum<Scalar = T>>(criterion: &mut Criterion, n
         let unit: Vec<T> = uniform(n, &mut rng);
         unit.into_iter().map(|u| T::lit(0.2) * (u - T::HALF)).collect::<Vec<T>>()
     });
-    let fresnel = Schlick::new(black_box(T::lit(F0)));
+    let fresnel = Schlick::new(black_box(T::lit(F0))).expect("a share");
     let metal = |surface| RoughConductor::new(surface, fresnel);
     let one = metal(Ggx::isotropic(black_box(T::lit(ALPHA))).expect("a width"));
     let each: Vec<_> = alpha_x.iter().map(|&a| metal(Ggx::isotropic(a).expect("a width"))).collect();

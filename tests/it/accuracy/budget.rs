@@ -64,8 +64,8 @@ pub(crate) const BUDGET: &[Row] = &[
     row("gtr_higher_lambda", "below the horizon", [0.9, 1.4], "γ = 10"),
     row("gtr_higher_g1", "above the horizon", [5.3, 4.7], "γ = 10 near the horizon"),
     row("gtr_g1", "θ ≤ 5α, dense", [2.5, 0.0], "γ = 1 near the horizon"),
-    row("fresnel_dielectric", "absolute", [5.0, 3.0], "just above the critical angle"),
-    row("fresnel_conductor", "absolute", [2.2, 2.4], "weak absorbers at grazing angles"),
+    row("fresnel_dielectric", "absolute", [4.2, 4.0], "η of a thousand and more"),
+    row("fresnel_conductor", "absolute", [4.8, 4.8], "grazing angles, large n"),
 ];
 
 /// Compares the worst error found with the row of the budget.

@@ -1,3 +1,15 @@
 //! Searches for the worst error over a whole domain, where a table has chosen points only.
+//!
+//! The short form runs with the other tests. The long form prints what it finds:
+//! `cargo test --release --test it search -- --ignored --nocapture`
 
 pub(crate) mod climb;
+mod exact;
+mod fresnel;
+
+use climb::Effort;
+
+/// What runs with every `cargo test`.
+const SHORT: Effort = Effort { starts: 1_000, moves: 30, finalists: 20 };
+/// What the bounds of the documentation come from.
+const LONG: Effort = Effort { starts: 40_000, moves: 60, finalists: 400 };

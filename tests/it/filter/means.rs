@@ -277,7 +277,7 @@ fn the_brdf_over_a_footprint() {
     let mut rng = Pcg64::seed_from_u64(10);
     for i in 0..300 {
         let surface = Ggx::from_roughness_matrix(RoughnessMatrix::rotated(0.02, 0.1, 0.3).unwrap());
-        let material = RoughConductor::new(surface, Schlick::new(0.5));
+        let material = RoughConductor::new(surface, Schlick::new(0.5).unwrap());
         let [wi, wo] = [(); 2].map(|()| {
             let z = between(&mut rng, 1e-3, 1.0);
             turned(&mut rng, (1.0 - z * z).sqrt()).extend(z)
@@ -338,7 +338,7 @@ fn the_brdf_over_any_footprint_is_a_number() {
     let mut rng = Pcg64::seed_from_u64(11);
     for i in 0..20_000 {
         let alpha = between(&mut rng, 1e-6, 1.0) as f32;
-        let material = RoughConductor::new(Ggx::isotropic(alpha).unwrap(), Schlick::new(0.5_f32));
+        let material = RoughConductor::new(Ggx::isotropic(alpha).unwrap(), Schlick::new(0.5_f32).unwrap());
         let [wi, wo] = [(); 2].map(|()| {
             let z = between(&mut rng, 1e-30, 1.0);
             turned(&mut rng, (1.0 - z * z).sqrt()).extend(z).as_vec3()

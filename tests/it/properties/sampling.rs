@@ -79,7 +79,8 @@ fn a_sample_of_a_mixture_is_that_of_the_reflection<T: Scalar>() {
 fn mixtures_have_the_density_of_the_balance_heuristic<T: Scalar>() {
     let arguments = (surface(), pairs::<T>(), unit_interval::<T>());
     check(3000, arguments, |(spec, (i, o), p)| {
-        let brdf = RoughConductor::new(built::<T>(&spec)?, Schlick::new(T::lit(0.3))).sampled_by(AllNormals);
+        let brdf = RoughConductor::new(built::<T>(&spec)?, Schlick::new(T::lit(0.3)).unwrap())
+            .sampled_by(AllNormals);
         let once = UniformMixture::new(AllNormals, p).map_err(|_| TestCaseError::reject("p = 1"))?;
         prop_assert!((once.probability() - p).abs() <= T::HALF * T::HALF * T::EPSILON, "{once:?}");
         let twice = UniformMixture::new(once, T::HALF).expect("below 1");
@@ -105,7 +106,7 @@ where
 {
     let arguments = (surfaces, strictly_above::<T>(), unit_interval::<T>(), unit_interval::<T>());
     check(6000, arguments, |(spec, o, u1, u2)| {
-        let fresnel = Schlick::new(T::lit(0.3));
+        let fresnel = Schlick::new(T::lit(0.3)).unwrap();
         let brdf = RoughConductor::new(built::<T>(&spec)?, fresnel).sampled_by(sampling);
         let wo = o.into();
         let Some(sample) = brdf.sample(wo, [u1, u2].into()) else { return Ok(()) };

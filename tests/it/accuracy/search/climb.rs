@@ -50,13 +50,13 @@ pub(crate) fn worst<const K: usize, I>(
     let mut points: Vec<(f64, [f64; K])> = (0..effort.starts)
         .map(|_| {
             let point = core::array::from_fn(|_| unit(&mut rng));
-            climbed(&mut rng, (value(point), point), effort.moves, &value)
+            climbed(&mut rng, (value(point), point), effort.moves, value)
         })
         .collect();
     points.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut best = points[0];
     for &finalist in points.iter().take(effort.finalists) {
-        let last = climbed(&mut rng, finalist, 16 * effort.moves, &value);
+        let last = climbed(&mut rng, finalist, 16 * effort.moves, value);
         if last.0 > best.0 {
             best = last;
         }
