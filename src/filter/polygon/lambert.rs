@@ -8,8 +8,16 @@ use crate::elementary::kernel::{Kernel, polynomial};
 
 /// The longest side, in units of ℓ, of a parallelogram for 5 × 5 points.
 const SMALL: f64 = 0.25;
+/// The shorter side, in units of ℓ, of a parallelogram for three lines along the longer one.
+const SLIM: f64 = 0.03;
 /// The width, in units of ℓ, of a parallelogram that counts as a line.
 const THIN: f64 = 4e-6;
+/// Gauss's rule of three points, as [`GAUSS`].
+const THREE: [[f64; 2]; 3] = [
+    [-0.38729833462074168852, 0.27777777777777777778],
+    [0.0, 0.44444444444444444444],
+    [0.38729833462074168852, 0.27777777777777777778],
+];
 
 /// Gauss–Legendre nodes on [−½, ½] and weights of sum 1.
 pub(super) const GAUSS: [[f64; 2]; 5] = [
@@ -54,6 +62,12 @@ pub(super) fn mean(centre: Point, u: Point, v: Point) -> f64 {
     let scale2 = 1.0 + distance2;
     if length * length <= SMALL * SMALL * scale2 {
         return over_points(centre, u, v);
+    }
+    if dot(v, v) <= SLIM * SLIM * scale2 {
+        return THREE.iter().fold(0.0, |sum, &[b, weight]| {
+            let middle = plus(centre, b, v);
+            sum + weight * Line::new(plus(middle, -0.5, u), plus(middle, 0.5, u)).constant_mean()
+        });
     }
     let area = cross(u, v);
     if area * area <= THIN * THIN * scale2 * (length * length) {
