@@ -80,7 +80,7 @@ pub(super) fn mean(centre: [f64; 2], u: [f64; 2], v: [f64; 2]) -> f64 {
     let mut sum = 0.0;
     for (from, to, speed) in [(first, ends[0], length), (ends[0], ends[1], dy.abs()), (ends[1], last, length)]
     {
-        if from == to && first < last {
+        if from >= to {
             continue;
         }
         let distance = (to - from) * speed;
