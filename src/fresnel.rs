@@ -165,13 +165,14 @@ impl<S: Spectrum> Fresnel for Schlick<S> {
 /// The exact reflectance of a dielectric, for light coming from the side of index 1 to that of index η.
 ///
 /// With g² = η² − 1 + cos², sin² = 1 − cos²:
-/// F = ½ ((g − cos)/(g + cos))² (1 + ((g cos − sin²)/(g cos + sin²))²), and 1 where g² < 0, total internal
-/// reflection. Where g − cos would cancel it is (η² − 1)/(g + cos); g² is summed from exact squares.
+/// F = ½ ((g − cos)/(g + cos))² (1 + ((g cos − sin²)/(g cos + sin²))²), and 1 where g² < 0, total
+/// internal reflection. Where g − cos would cancel it is (η² − 1)/(g + cos). g² is a sum of exact squares.
 ///
 /// # Accuracy
-/// Absolute: 4 ε, the largest found by a search over all η and cosines (`tests/it/accuracy/search/fresnel.rs`,
-/// budget row `fresnel_dielectric`), at η of a thousand and more. The arguments are taken as exact: at the
-/// critical angle F has an infinite slope, and rounding the cosine itself moves F by √ε.
+/// Absolute: 4 ε, at η of a thousand and more. This is the largest found by a search over all η and
+/// cosines (`tests/it/accuracy/search/fresnel.rs`, budget row `fresnel_dielectric`). The arguments are
+/// taken as exact: at the critical angle F has an infinite slope, and rounding the cosine itself moves F
+/// by √ε.
 ///
 /// # Special cases
 /// η = 1 → 0 at every angle. η below ε and η above 1/ε → 1, the limits.
@@ -232,7 +233,7 @@ fn at_most_one<T: Real>(f: T) -> T {
     if f > T::ONE { T::ONE } else { f }
 }
 
-/// n² − sin² = (n² − 1) + cos² to an ulp of itself, for n below 2²⁷ and numbers that are taken as exact.
+/// n² − sin² = (n² − 1) + cos² to an ulp of itself, for n below 2²⁷; the arguments are exact.
 ///
 /// Near the critical angle it cancels, and its root is the error of a reflectance.
 #[inline(always)]
@@ -287,8 +288,8 @@ impl<S: Spectrum> Fresnel for Dielectric<S> {
 ///
 /// # Accuracy
 /// Absolute: 4.5 ε, the largest found by a search over all n, k and cosines
-/// (`tests/it/accuracy/search/fresnel.rs`, budget row `fresnel_conductor`). The arguments are taken as exact. At
-/// k = 0 it is a [`Dielectric`].
+/// (`tests/it/accuracy/search/fresnel.rs`, budget row `fresnel_conductor`). The arguments are taken as
+/// exact. At k = 0 it is a [`Dielectric`].
 ///
 /// # Example
 /// Copper reflects red.
@@ -312,9 +313,9 @@ impl<S: Spectrum> Conductor<S> {
     /// A conductor of refractive index n and extinction coefficient k per channel.
     ///
     /// # Errors
-    /// [`Error::RefractiveIndex`] unless every n is positive and at most 10⁹, [`Error::Extinction`] unless every k
-    /// is within 0 … 10⁹: their fourth powers must be finite. Measured ones are below 300; a mirror is
-    /// [`Perfect`].
+    /// [`Error::RefractiveIndex`] unless every n is positive and at most 10⁹, [`Error::Extinction`] unless
+    /// every k is within 0 … 10⁹: their fourth powers must be finite. Measured ones are below 300; a
+    /// mirror is [`Perfect`].
     pub fn new(n: S, k: S) -> Result<Self, Error> {
         let (zero, largest) = (S::Scalar::ZERO, S::Scalar::lit(1e9));
         check(n, |n| n > zero && n <= largest, |value| Error::RefractiveIndex { value })?;

@@ -8,7 +8,7 @@ use microsurface::{Beckmann, Error, Ggx, Isotropic, Microsurface};
 /// The roughness of both.
 pub(crate) const ALPHA: f32 = 0.01;
 
-/// What the conductor reflects.
+/// The Fresnel term of the conductor.
 pub(crate) fn fresnel() -> Schlick<f32> {
     Schlick::new(0.8).expect("a share")
 }

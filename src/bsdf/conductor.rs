@@ -24,8 +24,8 @@ use crate::vector::dot;
 /// # Special cases
 /// A direction at or below the horizon → f = pdf = 0 and no sample. Where |wi + wo|² < 2⁻⁶⁴ (f32) or 2⁻⁵¹² (f64),
 /// which unit vectors above the horizon reach only within 3e-10 (f32) of it and opposite to each other → 0. f itself
-/// grows without bound as both directions approach the horizon, and is held at the largest number of the scalar
-/// once 4 zi zo/G2 is smaller than D over that; f wi.z does not overflow.
+/// grows without bound as both directions approach the horizon. It is held at the largest number of the
+/// scalar once 4 zi zo/G2 is smaller than D over that; f wi.z does not overflow.
 ///
 /// # Example
 /// ```
@@ -108,7 +108,7 @@ impl<N, F, S> RoughConductor<N, F, S> {
     }
 }
 
-/// A value beyond the scalar is its largest number, so that a reflectance of 0 stays 0; NaN stays NaN.
+/// Limits ∞ to the largest number, so that a reflectance of 0 times it is 0; NaN stays NaN.
 #[inline(always)]
 fn finite<T: Real>(f: T) -> T {
     if f > T::MAX { T::MAX } else { f }

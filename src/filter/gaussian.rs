@@ -194,7 +194,7 @@ impl<T: Real, const N: usize> FilteredGgx<T, N> {
         of_tail: impl Fn(&Microsurface<Ggx, Linear<T>>) -> T,
         of_core: impl Fn(&Microsurface<Beckmann, Linear<T>>) -> T,
     ) -> T {
-        // A kernel too narrow to matter leaves cores of weight 0, which must not count where Λ is infinite.
+        // A kernel too narrow to matter leaves cores of weight 0: nothing, also where Λ is infinite.
         let part = |weight: T, value: T| if weight > T::ZERO { weight * value } else { T::ZERO };
         let tail = self.tail.0 * of_tail(&self.tail.1);
         self.cores.iter().fold(tail, |sum, (weight, core)| sum + part(*weight, of_core(core)))
@@ -254,7 +254,7 @@ impl<T: Real, const N: usize> Ndf for FilteredGgx<T, N> {
 
     #[inline(always)]
     fn lambda(&self, w: Vec3<Self>) -> T {
-        // Of the side above, whose sum is without cancellation; Λ(−w) = −1 − Λ(w) holds to the last bit.
+        // On the side above nothing cancels, and Λ(−w) = −1 − Λ(w) holds to the last bit.
         let [x, y, z]: [T; 3] = w.into();
         let up = [x, y, z.abs()].into();
         let lambda = self.weighted(|tail| tail.lambda(up), |core| core.lambda(up));

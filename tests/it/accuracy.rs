@@ -226,7 +226,7 @@ fn fresnel<T: Real + Spectrum<Scalar = T>>() {
     }
 }
 
-/// Where the sum η² − 1 + cos² cancels, and cosines that no f32 holds; values by mpmath with 60 digits.
+/// η² − 1 + cos² cancels here, at cosines that no f32 holds. Values by mpmath with 60 digits.
 #[test]
 fn fresnel_at_the_critical_angle() {
     for (eta, cos, exact) in [

@@ -7,11 +7,11 @@ use crate::elementary::atan2;
 use crate::elementary::kernel::{Kernel, polynomial};
 
 /// The longest side, in units of ℓ, of a parallelogram for 5 × 5 points.
-const SMALL: f64 = 0.25;
+const SMALL: f64 = 0.2;
 /// The shorter side, in units of ℓ, of a parallelogram for three lines along the longer one.
 const SLIM: f64 = 0.03;
 /// The width, in units of ℓ, of a parallelogram that counts as a line.
-const THIN: f64 = 4e-6;
+const THIN: f64 = 1e-5;
 /// Gauss's rule of three points, as [`GAUSS`].
 const THREE: [[f64; 2]; 3] = [
     [-0.38729833462074168852, 0.27777777777777777778],

@@ -6,7 +6,7 @@ use crate::Real;
 use crate::elementary::{erf, erfc, exp_neg_square};
 use crate::filter::polygon::lambert::GAUSS;
 
-/// Nodes in (0, 1), the positive ones of [−1, 1], and weights of mean ½ over both signs: of eight points, …
+/// Gauss–Legendre nodes on [−1, 1], the positive ones, and weights that add up to ½: eight points, …
 const FEW: [[f64; 2]; 4] = [
     [0.18343464249564980494, 0.18134189168918099148],
     [0.52553240991632898582, 0.15685332293894364367],
@@ -28,15 +28,15 @@ const MANY: [[f64; 2]; 12] = [
     [0.9747285559713094982, 0.0142656943144668315905],
     [0.99518721999702136018, 0.0061706148999935997735],
 ];
-/// How far apart the ends of a piece for eight points are, in units of the distance on which the density varies.
+/// The longest piece for eight points, in units of the distance on which the density varies.
 const SHORT: f64 = 2.0;
-/// How far apart the ends of a piece for twenty-four points are.
+/// The longest piece for twenty-four points.
 const LONG: f64 = 10.0;
-/// What lies this much farther from the origin, in squares, than the nearest of all is below 4e-11 of it.
+/// What lies this much farther from the origin, in squares, than the nearest of all is below 2e-10 of it.
 const NEGLIGIBLE: f64 = 22.5;
 /// e^{−x²} of numbers whose square is beyond this is 0.
 const VANISHES: f64 = 746.0;
-/// erfc 5 = 1.5e-12: farther than this inside an interval, the integral over it is that over the line.
+/// erfc 4.5 = 2e-10: an interval around a point, to this distance, counts as the whole line.
 const INSIDE: f64 = 4.5;
 
 /// The mean of e^{−x²}/√π within `half` of x.
@@ -55,9 +55,9 @@ pub(super) fn mean_within(x: f64, half: f64) -> f64 {
 
 /// The mean of e^{−|t|²}/π over `centre` ± ½u ± ½v.
 ///
-/// Along the longer edge an error function, across it Gauss's rule, where the density is not negligible. It is a
-/// density times one that falls, smooth on whatever is left: 24 points, unless the longer edge is so long that the
-/// error functions reach their ends before the density does. Then there are pieces before, between and after.
+/// Along the longer edge it is a difference of error functions. Across it is Gauss's rule, on the part
+/// where the density is not negligible. A long edge that is not across the other makes that part flat
+/// in the middle and steep at both ends: then it is cut into three.
 pub(super) fn mean(centre: [f64; 2], u: [f64; 2], v: [f64; 2]) -> f64 {
     let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
     let (u, v) = if dot(u, u) < dot(v, v) { (v, u) } else { (u, v) };
@@ -89,7 +89,7 @@ pub(super) fn mean(centre: [f64; 2], u: [f64; 2], v: [f64; 2]) -> f64 {
             sum += across.integral(from, to, &FEW);
             continue;
         }
-        // At most three: no more than this is seen.
+        // No part that is not negligible is longer than three.
         let mut pieces = 1.0;
         while pieces * LONG < distance && pieces < 3.0 {
             pieces += 1.0;
@@ -114,10 +114,11 @@ struct Across {
     half: f64,
 }
 
-/// The part of the shorter edge on which the density is not negligible, and the least squared distance from the origin.
+/// The part of the shorter edge on which the density is not negligible.
 struct Seen {
     first: f64,
     last: f64,
+    /// The least squared distance from the origin.
     least: f64,
 }
 
@@ -137,8 +138,8 @@ impl Across {
     fn seen(&self) -> Option<Seen> {
         let ([x, y], [dx, dy], half) = (self.at, self.step, self.half);
         let squared = dx * dx + dy * dy;
-        // Its least is where the line crosses an axis or an end of the edge, where the distance from an end is least, or at
-        // the ends of the shorter edge: a piecewise parabola has no other minima.
+        // The squared distance is a parabola in pieces. Its least is where the line crosses an axis or an
+        // end of the edge, where the distance from an end is least, or at the ends of the shorter edge.
         let candidates = [
             -y / dy,
             (half - x) / dx,
@@ -160,7 +161,8 @@ impl Across {
         if squared == 0.0 {
             return Some(Seen { first: -0.5, last: 0.5, least });
         }
-        // What is nearer than this is a rectangle with a half disc at either end of it: where the line is in any of them.
+        // The points nearer than this to the edge's image are a rectangle and two discs at its ends. The
+        // line crosses each of them in an interval; together these are one.
         let reach2 = least + NEGLIGIBLE;
         let disc = |x: f64| {
             let distance = (x * dy - y * dx) / Real::sqrt(squared);

@@ -9,7 +9,7 @@ mod fresnel;
 
 use climb::Effort;
 
-/// What runs with every `cargo test`.
+/// The effort of every `cargo test`.
 const SHORT: Effort = Effort { starts: 1_000, moves: 30, finalists: 20 };
-/// What the bounds of the documentation come from.
+/// The effort behind the bounds of the documentation.
 const LONG: Effort = Effort { starts: 40_000, moves: 60, finalists: 400 };

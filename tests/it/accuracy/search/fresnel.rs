@@ -11,7 +11,9 @@ use crate::accuracy::budget::assert_within;
 /// n + ik and a cosine, as the scalar holds them.
 type Input<T> = [T; 3];
 
-/// ½ (|r_s|² + |r_p|²) by r = (cos − q)/(cos + q), (m² cos − q)/(m² cos + q) with m = n + ik and q² = m² − sin².
+/// ½ (|r_s|² + |r_p|²) by r_s = (cos − q)/(cos + q), r_p = (m² cos − q)/(m² cos + q).
+///
+/// m = n + ik and q² = m² − sin².
 fn exact<T: Real>(input: Input<T>) -> f64 {
     let [n, k, cos] = input.map(|x| Exact::new(x.to_f64()));
     let (x, y) = (&n.square() - &k.square(), &(&n * &k) * 2.0);
