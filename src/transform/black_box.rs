@@ -18,7 +18,8 @@ use crate::vector::{at_least_cosine, dot, normalized};
 /// singular values of the matrix.
 ///
 /// # Special cases
-/// As those of the distribution at rest: heights keep their sign.
+/// As those of the distribution at rest: heights keep their sign. Λ loses its digits where w.z times the
+/// matrix is subnormal; σ does not.
 ///
 /// # Example
 /// A distribution of one's own, drawn out to twice its length along x.
