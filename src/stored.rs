@@ -22,7 +22,7 @@
 //!
 //! | type | entries |
 //! |---|---|
-//! | [`Microsurface`](crate::Microsurface) | `version`, `profile`, `map` |
+//! | [`Microsurface`] | `version`, `profile`, `map` |
 //! | [`Ggx`](crate::Ggx), [`Beckmann`](crate::Beckmann) | `name` = `"ggx"`, `"beckmann"`, `"beckmann_to_1e6"` |
 //! | [`Gtr`](crate::Gtr) | `name` = `"gtr"`, `alpha`, `gamma`, `mask` = `"mixture"`, `"nodes"`, `"closed"` or `"spline"` |
 //! | [`Isotropic`](crate::Isotropic) | `alpha` |
