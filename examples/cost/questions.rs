@@ -149,7 +149,7 @@ fn surfaces(arguments: &Rc<[Arguments<f32>]>) -> Result<Vec<Row>, Error> {
 /// Fresnel terms of one and of three channels.
 fn spectra(arguments: &Rc<[Arguments<f32>]>) -> Result<Vec<Row>, Error> {
     let surface = Ggx::isotropic(0.3_f32)?;
-    let (n, k) = (Vec3::new(0.2, 0.5, 1.3), Vec3::new(3.9, 2.4, 1.8));
+    let (f0, n, k) = (Vec3::new(1.0, 0.7, 0.3), Vec3::new(0.2, 0.5, 1.3), Vec3::new(3.9, 2.4, 1.8));
     let row = |name: &str, kernels| Row { name: name.into(), kernels };
     Ok(vec![
         row(
@@ -162,8 +162,8 @@ fn spectra(arguments: &Rc<[Arguments<f32>]>) -> Result<Vec<Row>, Error> {
         row(
             "`Schlick`",
             vec![
-                of_fresnel(surface, Schlick::new(n.x)?, arguments),
-                of_fresnel(surface, Schlick::new(n)?, arguments),
+                of_fresnel(surface, Schlick::new(f0.x)?, arguments),
+                of_fresnel(surface, Schlick::new(f0)?, arguments),
             ],
         ),
         row(
