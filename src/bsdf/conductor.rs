@@ -185,7 +185,7 @@ where
     /// The mean of P22 over the parallelogram ([`polygon::mean_p22`]) over wm.z⁴ in the place of D.
     ///
     /// # Special cases
-    /// A footprint of a point → [`eval`](Self::eval); one that is not finite → 0, unless it is
+    /// A footprint of a point → [`eval`](Self::eval); one that is not finite, NaN too → 0, unless it is
     /// [`clamped`](Footprint::clamped).
     ///
     /// # Example
@@ -215,7 +215,7 @@ where
         let secant2 = half.length2 / (z * z);
         let f = Self::quarter() * (mean * secant2 * secant2) / self.surface.masked_cosines(wi, wo);
         // At the very horizon the mean is 0 and the secant may be infinite.
-        let f = if mean == M::Scalar::ZERO { mean } else { f };
+        let f = if mean == M::Scalar::ZERO || !footprint.is_finite() { M::Scalar::ZERO } else { f };
         self.fresnel.reflectance(half.cosine()).scaled(half.select(finite(f)))
     }
 }

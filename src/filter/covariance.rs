@@ -62,11 +62,11 @@ impl<T: Real> Covariance<T> {
     #[inline]
     pub fn new(xx: T, xy: T, yy: T) -> Result<Self, Error> {
         let [x, o, y] = [xx, xy, yy].map(T::to_f64);
-        let determinant = difference_of_products(x, y, o, o);
+        let (determinant, unit) = determinant([x, o, y]);
         if !(x >= 0.0 && y >= 0.0 && determinant >= 0.0 && (x + y).is_finite()) {
             return Err(Error::Covariance { xx: x, xy: o, yy: y });
         }
-        Ok(Self::of(Gram { xx: x, xy: o, yy: y, root: Real::sqrt(determinant) }))
+        Ok(Self::of(Gram { xx: x, xy: o, yy: y, root: Real::sqrt(determinant) * unit }))
     }
 
     /// The positive semidefinite matrix of these entries, each limited to what its neighbours allow: negative
@@ -78,12 +78,12 @@ impl<T: Real> Covariance<T> {
     pub fn nearest(xx: T, xy: T, yy: T) -> Self {
         let positive = |x: f64| if x < 0.0 { 0.0 } else { x };
         let [x, o, y] = [positive(xx.to_f64()), xy.to_f64(), positive(yy.to_f64())];
-        let determinant = difference_of_products(x, y, o, o);
+        let (determinant, unit) = determinant([x, o, y]);
         if determinant < 0.0 {
             let limit = Real::sqrt(x) * Real::sqrt(y);
             return Self::of(Gram { xx: x, xy: limit.copysign(o), yy: y, root: 0.0 });
         }
-        Self::of(Gram { xx: x, xy: o, yy: y, root: Real::sqrt(determinant) })
+        Self::of(Gram { xx: x, xy: o, yy: y, root: Real::sqrt(determinant) * unit })
     }
 
     /// The same variance in every direction.
@@ -168,9 +168,11 @@ impl<T: Real> Covariance<T> {
     pub fn principal(&self) -> [T; 3] {
         let [a, b, d] = self.factor();
         let (difference, twice_xy) = (a * a - b * b - d * d, 2.0 * a * b);
-        let largest =
-            0.5 * (a * a + b * b + d * d + Real::sqrt(difference * difference + twice_xy * twice_xy));
-        let smallest = if largest > 0.0 { (a * d) * (a * d) / largest } else { largest };
+        let trace = a * a + b * b + d * d;
+        // Shares of the trace, whose squares are numbers.
+        let (x, y) = (difference / trace, twice_xy / trace);
+        let largest = if trace > 0.0 { 0.5 * trace * (1.0 + Real::sqrt(x * x + y * y)) } else { trace };
+        let smallest = if largest > 0.0 { (a * d) * (a * d / largest) } else { largest };
         [largest, smallest, 0.5 * crate::real::construction::atan2(twice_xy, difference)].map(T::lit)
     }
 
@@ -225,6 +227,19 @@ impl<T: Real> Covariance<T> {
         let [xx, xy, yy] = self.entries().map(T::to_f64);
         Self::of(Gram { xx: f * xx + g, xy: f * xy, yy: f * yy + g, root: Real::sqrt(limit * s) })
     }
+}
+
+/// xx yy − xy² in the square of a unit, and the unit: a power of two, so that no product leaves the range of f64.
+#[inline(always)]
+fn determinant([xx, xy, yy]: [f64; 3]) -> (f64, f64) {
+    let largest = xx.abs().max(yy.abs()).max(xy.abs());
+    let unit = match largest {
+        l if l > 1e150 => f64::from_bits(0x6FF0_0000_0000_0000), // 2⁷⁶⁸
+        l if l < 1e-130 => f64::from_bits(0x0FF0_0000_0000_0000), // 2⁻⁷⁶⁸
+        _ => 1.0,
+    };
+    let [x, o, y] = [xx, xy, yy].map(|entry| entry / unit);
+    (difference_of_products(x, y, o, o), unit)
 }
 
 /// The covariance of the sum of two independent slopes: a nested convolution.

@@ -45,7 +45,9 @@ use crate::roughness::checked;
 /// moments it is E₁ + E₂ + E\[t₁\]E\[t₂\]ᵀ + E\[t₂\]E\[t₁\]ᵀ.
 ///
 /// # Special cases
-/// Made of numbers that are not finite they are not finite; [`covariance`](Self::covariance) then is not, and filters refuse it.
+/// Made of numbers that are not finite they are not [finite](Self::is_finite): [`covariance`](Self::covariance)
+/// then is not either, and filters refuse it. Means leave such parts out, so that one bad texel does not spoil
+/// the levels above it.
 ///
 /// # Accuracy
 /// Means and covariances are formed in f64. With no difference of moments, a covariance is as accurate as the slopes
@@ -68,14 +70,33 @@ impl<T: Real> Moments<T> {
         Self { mean: slope.into(), covariance: [T::ZERO; 3] }
     }
 
-    /// Of the facet whose normal has the direction of m, of any length.
+    /// Moments of the facet whose normal has the direction of m, of any length.
     ///
     /// # Special cases
-    /// m.z = 0 has no slope: the moments are not finite, nor is any mean with them.
+    /// m.z ≤ 0, an upright or an overhanging facet, has no slope: the moments are not
+    /// [finite](Self::is_finite), and means leave them out.
+    ///
+    /// # Example
+    /// ```
+    /// use microsurface::{filter::normal_map::Moments, glam::Vec3};
+    /// let texels = [Vec3::new(-0.5, 0.0, 1.0), Vec3::X, Vec3::new(0.5, 0.0, -1.0)].map(Moments::<f32>::of_normal);
+    /// assert_eq!(texels.map(|texel| texel.is_finite()), [true, false, false]);
+    /// assert_eq!(Moments::mean(texels), Some(texels[0]));
+    /// ```
     #[inline]
     #[must_use]
     pub fn of_normal(m: T::Vec3) -> Self {
-        Self::of_slope(normal_to_slope::<T>(m))
+        let [_, _, z]: [T; 3] = m.into();
+        // NaN has none either.
+        let none = T::INFINITY - T::INFINITY;
+        Self::of_slope(if z > T::ZERO { normal_to_slope::<T>(m) } else { [none, none].into() })
+    }
+
+    /// Whether the mean and the covariance are.
+    #[inline]
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        self.mean.iter().chain(&self.covariance).all(|x| x.is_finite())
     }
 
     /// Of slopes of this mean and covariance.
@@ -123,7 +144,10 @@ impl<T: Real> Moments<T> {
         ([x, y].map(T::lit).into(), [xx + x * x, xy + x * y, yy + y * y].map(T::lit))
     }
 
-    /// Of equal parts: a texel of the next mip level from its four. `None` for none.
+    /// Moments of equal parts: a texel of the next mip level from its four.
+    ///
+    /// # Returns
+    /// `None` without a part that is finite.
     ///
     /// # Example
     /// ```
@@ -138,10 +162,12 @@ impl<T: Real> Moments<T> {
         Self::weighted_mean(parts.into_iter().map(|part| (part, T::ONE)))
     }
 
-    /// Of parts with weights, which need not sum to 1: a filter kernel over texels, the areas of facets.
+    /// Moments of parts with weights, which need not sum to 1: a filter kernel over texels, the areas of facets.
     ///
-    /// Var = Σ wᵢ(Varᵢ + δᵢδᵢᵀ)/Σ wᵢ with δᵢ = meanᵢ − mean, in one pass whose terms are all positive. `None` unless the sum
-    /// of the weights is above 0.
+    /// Var = Σ wᵢ(Varᵢ + δᵢδᵢᵀ)/Σ wᵢ with δᵢ = meanᵢ − mean, in one pass whose terms are all positive.
+    ///
+    /// # Returns
+    /// `None` unless the weights of the parts that are finite have a sum above 0.
     ///
     /// # Domain
     /// Weights from 0; with negative ones the covariance may be indefinite.
@@ -152,8 +178,8 @@ impl<T: Real> Moments<T> {
     pub fn weighted_mean(parts: impl IntoIterator<Item = (Self, T)>) -> Option<Self> {
         let (mut total, mut mean, mut covariance) = (0.0, [0.0; 2], [0.0; 3]);
         for (part, weight) in parts {
-            // A part of no weight says nothing, not even where it is not finite.
-            if weight == T::ZERO {
+            // A part of no weight says nothing, nor does one without a slope.
+            if weight == T::ZERO || !part.is_finite() {
                 continue;
             }
             let weight = weight.to_f64();
@@ -165,10 +191,18 @@ impl<T: Real> Moments<T> {
         (total > 0.0).then(|| Self { mean: mean.map(T::lit), covariance: covariance.map(T::lit) })
     }
 
-    /// Of `1 − share` of these slopes and `share` of the others: a step of bilinear and trilinear filtering.
+    /// Moments of `1 − share` of these slopes and `share` of the others: a step of bilinear and trilinear filtering.
+    ///
+    /// # Special cases
+    /// Where one of the two is not finite → the other.
     #[inline]
     #[must_use]
     pub fn lerp(&self, other: &Self, share: T) -> Self {
+        match [self, other].map(Self::is_finite) {
+            [_, false] => return *self,
+            [false, true] => return *other,
+            [true, true] => {}
+        }
         let [a, b] = [self, other].map(|m| (m.mean.map(T::to_f64), m.covariance.map(T::to_f64)));
         let (mean, covariance) = mixed(a, b, share.to_f64());
         Self { mean: mean.map(T::lit), covariance: covariance.map(T::lit) }
@@ -218,7 +252,9 @@ impl<T: Real> Moments<T> {
     #[inline]
     #[must_use]
     pub fn covariance(&self) -> Covariance<T> {
-        let [xx, xy, yy] = self.covariance;
+        // 0, or NaN for a mean that is not finite.
+        let zero = (self.mean[0] - self.mean[0]) + (self.mean[1] - self.mean[1]);
+        let [xx, xy, yy] = self.covariance.map(|entry| entry + zero);
         Covariance::nearest(xx, xy, yy)
     }
 

@@ -133,7 +133,7 @@ pub(super) fn mean_of<P, M: Map>(
 /// ∫ P22 over the polygon of these vertices, in order: the share of facets whose slopes are within.
 ///
 /// # Domain
-/// Three or more vertices of a simple polygon, in either direction; fewer enclose nothing.
+/// Three or more vertices of a simple polygon, in either direction; fewer enclose nothing. Vertices within 1e70 α.
 ///
 /// # Returns
 /// A number in [0, 1].
@@ -161,7 +161,8 @@ pub fn integral_p22<M: Map>(
     let seen = |i: usize| seen_by_profile(surface.map(), vertices[i]);
     let edges =
         (0..vertices.len()).map(|i| lambert::Edge::new(seen(i), seen((i + 1) % vertices.len())).flux());
-    M::Scalar::lit(edges.fold(0.0, |sum, flux| sum + flux).abs())
+    let share = edges.fold(0.0, |sum, flux| sum + flux).abs();
+    M::Scalar::lit(if share > 1.0 { 1.0 } else { share })
 }
 
 impl<T: Real> MeanOverParallelogram<T> for Ggx {

@@ -123,15 +123,17 @@ impl OnDisc {
         let k11 = 1.0 + (c11 * first[0] + c12 * first[1]).max(0.0);
         let det_c = c11 * c22;
         let det_k = k11 + c22 * c22 * yy + det_c * det_c * det_b;
-        let d1 = first.map(|entry| entry / Real::sqrt(k11));
-        let scale = c22 / Real::sqrt(k11 * det_k);
+        // Roots before products: of footprints of 1e52 the product is beyond the largest number.
+        let (root_k11, root_k) = (Real::sqrt(k11), Real::sqrt(det_k));
+        let d1 = first.map(|entry| entry / root_k11);
+        let scale = c22 / (root_k11 * root_k);
         let d2 = [scale * (xy - c11 * c12 * det_b), scale * (yy + c11 * c11 * det_b)];
         // det(RᵀR + DᵀD) = (det R)² + |adj(R)ᵀd₁|² + |adj(R)ᵀd₂|² + (det D)².
         let mixed = |[x, y]: [f64; 2]| {
             let (a, b) = (r22 * x, r11 * y - r12 * x);
             a * a + b * b
         };
-        let (det_r, det_d) = (r11 * r22, det_c * det_b / Real::sqrt(det_k));
+        let (det_r, det_d) = (r11 * r22, det_c * det_b / root_k);
         Gram {
             xx: r11 * r11 + (d1[0] * d1[0] + d2[0] * d2[0]),
             xy: r11 * r12 + (d1[0] * d1[1] + d2[0] * d2[1]),

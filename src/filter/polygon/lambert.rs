@@ -201,7 +201,8 @@ impl Line {
             let x = opposite / adjacent;
             let x2 = x * x;
             let beyond = -(x * x2) * polynomial(x2, f64::ATAN);
-            let common = self.length * (2.0 * adjacent + self.length * self.length) / (ends * adjacent);
+            // The product of both divisors may be beyond the largest number.
+            let common = self.length / ends * ((2.0 * adjacent + self.length * self.length) / adjacent);
             return 0.5 * (common - beyond / (p * self.p2));
         }
         let angle = atan2(opposite, adjacent);

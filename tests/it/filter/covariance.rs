@@ -109,3 +109,27 @@ fn what_is_not_finite_is_refused_or_the_largest_kernel() {
     assert_eq!(point.clamped(1.0), point);
     assert_eq!(surface.filtered(point.covariance(0.25)).unwrap().p22(Vec2::ZERO), surface.p22(Vec2::ZERO));
 }
+
+#[test]
+fn covariances_are_checked_over_the_whole_range_of_f64() {
+    for scale in [1e-300, 1e-200, 1e-100, 1.0, 1e100, 1e200, 1e300] {
+        assert!(Covariance::new(scale, 10.0 * scale, scale).is_err(), "{scale:e}");
+        let near = |[xx, xy, yy]: [f64; 3]| {
+            let exact = [4.0, 1.0, 2.0].map(|entry| entry * scale);
+            [xx, xy, yy].iter().zip(exact).all(|(x, y)| (x / y - 1.0).abs() < 1e-14)
+        };
+        let covariance = Covariance::new(4.0 * scale, scale, 2.0 * scale).unwrap();
+        assert!(near(covariance.entries()), "{covariance:?}");
+        assert!(near(Covariance::nearest(4.0 * scale, scale, 2.0 * scale).entries()));
+        let [large, small, _] = covariance.principal().map(|x| x / scale);
+        assert!(
+            (large - (3.0 + 2.0_f64.sqrt())).abs() < 1e-14 && (small - (3.0 - 2.0_f64.sqrt())).abs() < 1e-14
+        );
+        let limited = Covariance::nearest(4.0 * scale, -9.0 * scale, scale).entries().map(|x| x / scale);
+        assert!((limited[1] + 2.0).abs() < 1e-14 && (limited[2] - 1.0).abs() < 1e-14, "{limited:?}");
+    }
+    // What no filter can hold is refused by the filter.
+    let refused = Ggx::isotropic(0.1).unwrap().filtered(Covariance::new(1e200, 0.0, 1e200).unwrap());
+    assert!(matches!(refused, Err(Error::Covariance { .. })));
+    assert_eq!(Covariance::<f64>::zero().principal(), [0.0; 3]);
+}

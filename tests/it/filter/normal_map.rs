@@ -225,16 +225,24 @@ fn toksvig() {
 fn bad_input() {
     let fine = Moments::of_slope(Vec2::new(0.1, 0.2));
     for bad in [f32::NAN, f32::INFINITY] {
-        let moments = Moments::mean([fine, Moments::of_slope(Vec2::new(bad, 0.0))]).unwrap();
-        assert!(!moments.covariance().is_finite());
+        let moments = Moments::of_slope(Vec2::new(bad, 0.0));
+        assert!(!moments.is_finite() && !moments.covariance().is_finite());
+        let spread = Moments::<f32>::new(Vec2::new(0.0, bad), Covariance::isotropic(0.1));
+        assert!(!spread.is_finite() && !spread.covariance().is_finite());
         assert!(!(fine + moments).covariance().is_finite() && !moments.tilted().1.is_finite());
         let refused = Ggx::isotropic(0.1_f32).unwrap().filtered(moments.covariance());
         assert!(matches!(refused, Err(Error::Covariance { .. })));
         assert!(Moments::weighted_mean([(fine, bad)]).is_none_or(|m| !m.mean_slope().is_finite()));
     }
-    // Without weight it says nothing.
-    let vertical = Moments::<f32>::of_normal(Vec3::X);
-    assert_eq!(Moments::weighted_mean([(vertical, 0.0), (fine, 2.0)]), Some(fine));
+    // Texels without a slope: upright, overhanging, empty.
+    for normal in [Vec3::X, Vec3::new(0.3, 0.1, -0.5), -Vec3::Z, Vec3::ZERO, Vec3::NAN] {
+        let none = Moments::<f32>::of_normal(normal);
+        assert!(!none.is_finite() && !none.covariance().is_finite() && !none.tilted().1.is_finite());
+        assert_eq!(Moments::weighted_mean([(none, 0.0), (fine, 2.0)]), Some(fine));
+        assert_eq!(Moments::mean([none, fine, none]), Some(fine));
+        assert_eq!(Moments::mean([none, none]), None);
+        assert_eq!([fine.lerp(&none, 0.7), none.lerp(&fine, 0.2)], [fine; 2]);
+    }
     assert_eq!(Moments::<f32>::mean([]), None);
     assert_eq!(Moments::weighted_mean([(fine, 0.0)]), None);
     // Rounding of a texture may leave what is no covariance; the nearest one is built.

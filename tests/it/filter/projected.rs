@@ -345,3 +345,32 @@ fn bad_input_is_refused() {
     let beckmann = Beckmann::isotropic(1.0_f32).unwrap();
     assert!(matches!(beckmann.filtered_isotropic(1e30), Err(Error::Alpha { .. })));
 }
+
+/// Footprints out to the largest that a covariance can be of: any direction, thin ones too.
+fn no_footprint_is_beyond_the_rim<T: Scalar>(largest_exponent: f64) {
+    let mut random = Pcg64Mcg::new(9);
+    let rounding = 4.0 * T::EPSILON.to_f64();
+    for _ in 0..20_000 {
+        let alphas = [(); 2].map(|()| T::lit(10.0_f64.powf(uniform(&mut random, -4.0, 0.0))));
+        let turn = DMat2::from_angle(uniform(&mut random, 0.0, 3.2));
+        let turn = T::matrix([turn.x_axis, turn.y_axis].map(|column| column.to_array().map(T::lit)));
+        let surface = Ggx::anisotropic(alphas[0], alphas[1]).unwrap().transformed(turn).unwrap();
+        let mut step = || -> T::Vec2 {
+            let length = 10.0_f64.powf(uniform(&mut random, -5.0, largest_exponent));
+            let angle = uniform(&mut random, 0.0, 6.3);
+            [length * angle.cos(), length * angle.sin()].map(T::lit).into()
+        };
+        let footprint = Footprint::<T>::new(step(), step());
+        let filtered = projected::filtered(&surface, footprint, T::lit(0.25)).unwrap();
+        let [alpha_max, alpha_min, _] = filtered.roughness_matrix().unwrap().principal().map(T::to_f64);
+        assert!(alpha_max <= 1.0 + rounding, "{alpha_max} by {footprint:?}");
+        let least = alphas[0].to_f64().min(alphas[1].to_f64());
+        assert!(alpha_min >= least * (1.0 - rounding), "{alpha_min} of {alphas:?} by {footprint:?}");
+    }
+}
+
+#[test]
+fn the_largest_footprints_leave_alpha_at_most_one() {
+    no_footprint_is_beyond_the_rim::<f32>(18.0);
+    no_footprint_is_beyond_the_rim::<f64>(70.0);
+}
