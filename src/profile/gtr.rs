@@ -14,11 +14,14 @@
 //! | [`Gtr::isotropic`] | 0 … 10 | 8e-6 | [`Mixture`](mixture::Mixture): 8 nodes, and components to sample visible normals fast |
 //! | [`Gtr::with_nodes`] | 0 … 10 | 1e-3 … 1e-7 | the same with another number of nodes |
 //! | [`Gtr::heavy_tailed`] | 0 … 2 | 1e-3 … 1e-7 | [`GgxNodes`](nodes::GgxNodes): nodes alone, no branch |
-//! | [`GtrTable`](table::GtrTable) | 0 … 10 | 4e-5 | nodes interpolated in α, for textures |
+//! | [`GtrTable`](table::GtrTable) | 0 … 10 | 1.6e-4 | nodes interpolated in α, for textures |
 //! | [`Gtr::closed`] | 0, 1, …, 10 | rounding | [`Closed`](closed::Closed): nothing is paid for other γ |
 //! | [`Gtr::spline`] | 0 … 4 | 0.34 | [`Spline`](spline::Spline): the papers' interpolation, for comparison |
 //!
 //! All but the spline can draw visible normals, with the density D_w of D itself.
+//!
+//! |γ − 1| |ln α²| must not exceed 700, so that α^(2γ−2) is a number of f64. That refuses γ = 10 below
+//! α = 1.3e-17, and nothing that f32 can hold.
 
 pub mod closed;
 pub mod components;

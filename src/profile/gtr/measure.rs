@@ -15,7 +15,7 @@
 use crate::Real;
 use crate::error::Error;
 use crate::profile::gtr::integer::{LARGEST_DEGREE, number};
-use crate::profile::gtr::range_and_log;
+use crate::profile::gtr::{LIMIT_EXCESS, range_and_log};
 use crate::real::construction::{exp, exp_m1, ln};
 
 /// γ as f64.
@@ -68,8 +68,8 @@ impl Measure {
         let degree = (0..LARGEST_DEGREE).take_while(|&n| gamma > number(n + 2)).count();
         let p = number(degree + 2) - gamma;
         let alpha2 = alpha * alpha;
-        // 1/γ is the weight of the end.
-        let points = if gamma < f64::MIN_POSITIVE {
+        // 1/γ is the weight of the end beside the rest, which then is below the rounding.
+        let points = if gamma < LIMIT_EXCESS {
             Points::One(1.0)
         } else if p == 0.0 {
             Points::One(alpha2)
