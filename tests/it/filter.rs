@@ -1,5 +1,6 @@
 //! Filters of distributions.
 
+mod ball;
 mod convolution;
 mod covariance;
 mod deferred;

@@ -271,6 +271,23 @@ fn what_a_filter_would_change_is_known_before() {
     assert!(beckmann_worst < 1e-4, "{beckmann_worst:e}");
     assert!(tightest > 0.3, "a bound so wide is of no use: {tightest}");
     let surface = Ggx::isotropic(0.1).unwrap();
+    // The limit of small changes is 10 in place of 12 for a line along the slope, far out. Beyond it 10 is no bound.
+    let far = |share: f64| {
+        let (slope, kernel) = (DVec2::new(100.0, 0.0), Covariance::new(share * 1e4, 0.0, 0.0).unwrap());
+        let change = gaussian::p22(&surface, kernel, slope) / surface.p22(slope) - 1.0;
+        (change, surface.change_by_filter_at(slope, kernel))
+    };
+    let (change, bound) = far(1e-5);
+    assert!((change / bound - 10.0 / 12.0).abs() < 1e-3, "{change:e} {bound:e}");
+    let (change, bound) = far(0.0081);
+    assert!(bound < 0.1 && change > 0.9 * bound && change <= bound, "{change:e} {bound:e}");
+    // A + 2Σ changes the tail by a share that does not fall: tr(A⁻¹Σ), and 3 times that along a line.
+    let (slope, line) = (DVec2::new(300.0, 0.0), Covariance::new(1e-7, 0.0, 0.0).unwrap());
+    for (kernel, share) in [(Covariance::isotropic(1e-6), 2e-4), (line, 3e-5)] {
+        let change = surface.filtered(kernel).unwrap().p22(slope) / surface.p22(slope) - 1.0;
+        assert!((change / share - 1.0).abs() < 1e-3, "{change:e} {share:e}");
+        assert!(surface.change_by_filter_at(slope, kernel) < 0.01 * change);
+    }
     assert_eq!(surface.change_by_filter(Covariance::zero()), 0.0);
     assert!(surface.change_by_filter(Covariance::isotropic(f64::NAN)).is_nan());
 }
