@@ -88,7 +88,7 @@ impl<T: Real> Moments<T> {
     pub fn of_normal(m: T::Vec3) -> Self {
         let [_, _, z]: [T; 3] = m.into();
         // NaN has none either.
-        let none = T::INFINITY - T::INFINITY;
+        let none = T::ZERO * T::INFINITY;
         Self::of_slope(if z > T::ZERO { normal_to_slope::<T>(m) } else { [none, none].into() })
     }
 
@@ -253,7 +253,7 @@ impl<T: Real> Moments<T> {
     #[must_use]
     pub fn covariance(&self) -> Covariance<T> {
         // 0, or NaN for a mean that is not finite.
-        let zero = (self.mean[0] - self.mean[0]) + (self.mean[1] - self.mean[1]);
+        let zero = T::ZERO * self.mean[0] + T::ZERO * self.mean[1];
         let [xx, xy, yy] = self.covariance.map(|entry| entry + zero);
         Covariance::nearest(xx, xy, yy)
     }

@@ -4,7 +4,7 @@
 
 mod budget;
 mod nodes;
-mod search;
+pub(crate) mod search;
 
 use microsurface::fresnel::{Conductor, Dielectric, Fresnel, Spectrum};
 use microsurface::profile::gtr::Density;

@@ -66,12 +66,44 @@ pub(crate) const BUDGET: &[Row] = &[
     row("gtr_g1", "θ ≤ 5α, dense", [2.5, 0.0], "γ = 1 near the horizon"),
     row("fresnel_dielectric", "absolute", [4.2, 4.0], "η of a thousand and more"),
     row("fresnel_conductor", "absolute", [4.8, 4.8], "grazing angles, large n"),
+    row("projected", "entries", [2.5, 11.0], "long thin kernels"),
+    row("projected", "determinant", [0.6, 2.0], "kernels along the wide axis"),
+    row("ggx_d", "searched", [5.7, 5.4], "tests/reference/worst.tsv"),
+    row("ggx_sigma", "searched", [2.1, 2.1], "tests/reference/worst.tsv"),
+    row("ggx_sigma", "searched below the horizon", [3.0, 3.1], "tests/reference/worst.tsv"),
+    row("ggx_lambda", "searched", [3.1, 3.1], "tests/reference/worst.tsv"),
+    row("ggx_lambda", "searched below the horizon", [2.5, 2.3], "tests/reference/worst.tsv"),
+    row("ggx_g1", "searched", [2.4, 2.2], "tests/reference/worst.tsv"),
+    row("beckmann_d", "searched", [3.8, 89.0], "tests/reference/worst.tsv"),
+    row("beckmann_d", "searched, exponent > 26, per unit of it", [0.15, 4.0], "tests/reference/worst.tsv"),
+    row("beckmann_sigma", "searched", [4.1, 4.0], "tests/reference/worst.tsv"),
+    row("beckmann_sigma", "searched below the horizon, per 1 + a²", [4.0, 4.0], "tests/reference/worst.tsv"),
+    row("beckmann_lambda", "searched", [6.3, 57.0], "tests/reference/worst.tsv"),
+    row("beckmann_lambda", "searched below the horizon", [4.1, 4.1], "tests/reference/worst.tsv"),
+    row("beckmann_lambda", "searched, a² > 26, per unit of it", [0.2, 2.7], "tests/reference/worst.tsv"),
+    row("beckmann_g1", "searched", [4.1, 3.9], "tests/reference/worst.tsv"),
+    row("gtr_d", "searched", [3.9, 26.0], "tests/reference/worst.tsv"),
+    row("gtr_sigma", "searched", [7.4, 6.9], "tests/reference/worst.tsv"),
+    row("gtr_sigma", "searched below the horizon", [11.0, 9.8], "tests/reference/worst.tsv"),
+    row("gtr_lambda", "searched", [9.4, 9.5], "tests/reference/worst.tsv"),
+    row("gtr_lambda", "searched below the horizon", [6.9, 6.9], "tests/reference/worst.tsv"),
+    row("gtr_g1", "searched", [7.2, 6.8], "tests/reference/worst.tsv"),
+    row("gtr_higher_sigma", "searched", [13.0, 13.0], "tests/reference/worst.tsv"),
+    row("gtr_higher_sigma", "searched below the horizon", [31.0, 29.0], "tests/reference/worst.tsv"),
+    row("gtr_higher_lambda", "searched", [30.0, 32.0], "tests/reference/worst.tsv"),
+    row("gtr_higher_lambda", "searched below the horizon", [13.0, 14.0], "tests/reference/worst.tsv"),
+    row("gtr_higher_g1", "searched", [13.0, 14.0], "tests/reference/worst.tsv"),
 ];
+
+/// The row of a function and a domain.
+pub(crate) fn bound(function: &str, domain: &str) -> &'static Row {
+    let row = BUDGET.iter().find(|row| row.function == function && row.domain == domain);
+    row.unwrap_or_else(|| panic!("no row {function}, {domain}"))
+}
 
 /// Compares the worst error found with the row of the budget.
 pub(crate) fn assert_within<T: Real>(function: &str, domain: &str, worst: f64, input: &str) {
-    let row = BUDGET.iter().find(|row| row.function == function && row.domain == domain);
-    let row = row.unwrap_or_else(|| panic!("no row {function}, {domain}: worst {worst:.3} ε at {input}"));
+    let row = bound(function, domain);
     let (index, scalar) = if T::EPSILON.to_f64() > 1e-10 { (0, "f32") } else { (1, "f64") };
     let bound = row.bounds[index];
     assert!(

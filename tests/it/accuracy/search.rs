@@ -4,12 +4,15 @@
 //! `cargo test --release --test it search -- --ignored --nocapture`
 
 pub(crate) mod climb;
+mod distributions;
 mod exact;
 mod fresnel;
+mod oracle;
+mod projected;
 
 use climb::Effort;
 
 /// The effort of every `cargo test`.
-const SHORT: Effort = Effort { starts: 1_000, moves: 30, finalists: 20 };
+pub(crate) const SHORT: Effort = Effort { starts: 1_000, moves: 30, finalists: 20 };
 /// The effort behind the bounds of the documentation.
-const LONG: Effort = Effort { starts: 40_000, moves: 60, finalists: 400 };
+pub(crate) const LONG: Effort = Effort { starts: 40_000, moves: 60, finalists: 400 };

@@ -1,6 +1,6 @@
 //! Means over parallelograms and rectangles against adaptive cubature.
 
-use std::f64::consts::{PI, TAU};
+use core::f64::consts::{PI, TAU};
 
 use microsurface::bsdf::RoughConductor;
 use microsurface::filter::Footprint;

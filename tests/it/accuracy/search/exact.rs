@@ -22,6 +22,25 @@ impl Exact {
         Self(self.0.sqrt())
     }
 
+    pub(super) fn exp(&self) -> Self {
+        Self(self.0.exp())
+    }
+
+    pub(super) fn ln(&self) -> Self {
+        Self(self.0.ln())
+    }
+
+    /// π to 212 bits, as a sum of four f64.
+    pub(super) fn pi() -> Self {
+        let parts = [
+            core::f64::consts::PI,
+            1.224_646_799_147_353_2e-16,
+            -2.994_769_809_718_339_7e-33,
+            1.112_454_220_863_365_3e-49,
+        ];
+        parts.iter().rev().fold(Self::new(0.0), |sum, &part| &sum + part)
+    }
+
     pub(super) fn square(&self) -> Self {
         self * self
     }
