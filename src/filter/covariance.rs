@@ -279,6 +279,13 @@ impl Sums {
         }
     }
 
+    /// Trace and determinant of b (RᵀR)⁻¹CᵀC: the sum and the product of its eigenvalues.
+    #[inline(always)]
+    pub(super) fn trace_and_determinant(&self, b: f64) -> [f64; 2] {
+        let [det_r, mixed, det_c] = self.determinant;
+        [b * (mixed / det_r), b * (b * (det_c / det_r))]
+    }
+
     /// a RᵀR + b CᵀC.
     #[inline(always)]
     pub(super) fn of(&self, a: f64, b: f64) -> Gram {
