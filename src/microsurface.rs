@@ -189,7 +189,7 @@ impl<P: SampleProfile<M::Scalar>, M: Map> SampleNdf for Microsurface<P, M> {
 
 impl<P: SampleVisibleProfile<M::Scalar>, M: Map> SampleVndf for Microsurface<P, M> {
     #[inline(always)]
-    fn course() -> Course {
+    fn course(&self) -> Course {
         P::COURSE
     }
 

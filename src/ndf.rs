@@ -289,10 +289,7 @@ pub trait SampleVndf: Ndf {
     #[doc(hidden)]
     #[inline(always)]
     #[must_use]
-    fn course() -> Course
-    where
-        Self: Sized,
-    {
+    fn course(&self) -> Course {
         Course::Straight
     }
 

@@ -22,7 +22,7 @@ pub trait Body<M, I> {
     type Out;
     /// How normals are sampled, where any are.
     #[inline(always)]
-    fn course() -> Course {
+    fn course(&self, _material: &M) -> Course {
         Course::Straight
     }
     /// The normal that an element samples; anything where it samples none.

@@ -12,7 +12,7 @@ type Sampled<T, S> = ((T, T, T), S, T);
 /// A BSDF of reflection by its scalar methods, as batches see it. Sealed: [`RoughConductor`].
 pub trait Reflection: Material {
     /// See [`NormalSampling`].
-    fn course() -> Course;
+    fn course(&self) -> Course;
     type Scalar: crate::Real;
     type Spectrum: Spectrum<Scalar = Self::Scalar>;
     fn eval_of(&self, wi: [Self::Scalar; 3], wo: [Self::Scalar; 3]) -> Self::Spectrum;
@@ -41,8 +41,8 @@ where
     type Scalar = N::Scalar;
     type Spectrum = F::Output;
     #[inline(always)]
-    fn course() -> Course {
-        S::course()
+    fn course(&self) -> Course {
+        self.sampling().course(self.surface())
     }
     #[inline(always)]
     fn eval_of(&self, wi: [N::Scalar; 3], wo: [N::Scalar; 3]) -> F::Output {
@@ -113,8 +113,8 @@ impl<R: Reflection> Body<R, (Vec3<R>, Vec2<R>)> for Sample {
     type Number = R::Scalar;
     type Out = Sampled<R::Scalar, R::Spectrum>;
     #[inline(always)]
-    fn course() -> Course {
-        R::course()
+    fn course(&self, brdf: &R) -> Course {
+        brdf.course()
     }
     #[inline(always)]
     fn normal(&self, brdf: &R, (wo, u): (Vec3<R>, Vec2<R>)) -> Vec3<R> {

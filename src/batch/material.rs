@@ -1,5 +1,7 @@
 //! One material for all elements, or one for each.
 
+use core::borrow::Borrow;
+
 use crate::batch::blocks::{Body, Maker, Sink, Source, check, each};
 use crate::batch::dispatch::{self, Kernel};
 use crate::bsdf::RoughConductor;
@@ -69,7 +71,8 @@ impl<M: Material> Materials for M {
         O: Sink,
     {
         check((), input, &output);
-        run::<B, _, _>(Same { material: self, body, input, output });
+        let course = body.course(self);
+        run(course, Same { material: self, body, input, output });
     }
 }
 
@@ -97,13 +100,17 @@ where
     O: Sink,
 {
     check(numbers, input, &output);
-    run::<B, _, _>(Various { numbers, maker, body, input, output });
+    if output.count() == 0 {
+        return;
+    }
+    let course = body.course(maker.made(P::item(numbers.block(0, &mut P::Pad::default()), 0)).borrow());
+    run(course, Various { numbers, maker, body, input, output });
 }
 
 /// At the level in use, where there are vectors to be had.
 #[inline(always)]
-fn run<B: Body<M, I>, M, I>(kernel: impl Kernel) {
-    if B::course() == Course::Branching { kernel.run() } else { dispatch::run(kernel) }
+fn run(course: Course, kernel: impl Kernel) {
+    if course == Course::Branching { kernel.run() } else { dispatch::run(kernel) }
 }
 
 /// An element's own material, as it is.
@@ -148,7 +155,7 @@ impl<M: Material, B: Body<M, I::Item, Out = O::Item>, I: Source, O: Sink> Kernel
     #[inline(always)]
     fn run(self) {
         let material = *self.material;
-        if B::course() == Course::Branching {
+        if self.body.course(&material) == Course::Branching {
             return self.all(material);
         }
         match material.form() {

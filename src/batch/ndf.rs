@@ -39,8 +39,8 @@ impl<N: SampleVndf> Body<N, ([N::Scalar; 3], [N::Scalar; 2])> for VisibleNormal 
     type Number = N::Scalar;
     type Out = (N::Scalar, N::Scalar, N::Scalar);
     #[inline(always)]
-    fn course() -> Course {
-        N::course()
+    fn course(&self, surface: &N) -> Course {
+        surface.course()
     }
     #[inline(always)]
     fn normal(&self, surface: &N, (w, u): ([N::Scalar; 3], [N::Scalar; 2])) -> [N::Scalar; 3] {

@@ -41,7 +41,7 @@ where
     B: Body<M::Material, I::Item>,
     I: Source,
 {
-    let found = match B::course() {
+    let found = match course::<P, M, B, I>(of, maker, body) {
         Course::Branching | Course::Straight => None,
         Course::Solving => Some(slopes::<ToRounding, P, M, B, I>(of, maker, body, arguments)),
         Course::SolvingTo1e6 => Some(slopes::<To1e6, P, M, B, I>(of, maker, body, arguments)),
@@ -65,6 +65,21 @@ where
         }
     }
     normals
+}
+
+/// How a block goes about its normals: as all of its elements do. The compiler knows it, but of elements that are known at
+/// run time alone.
+#[inline(always)]
+fn course<P, M, B, I>(of: P::Block<'_>, maker: &M, body: &B) -> Course
+where
+    P: Source,
+    M: Maker<P::Item>,
+    B: Body<M::Material, I::Item>,
+    I: Source,
+{
+    let of_lane = |lane| body.course(maker.made(P::item(of, lane)).borrow());
+    let first = of_lane(0);
+    if (1..BLOCK).all(|lane| of_lane(lane) == first) { first } else { Course::Straight }
 }
 
 /// The slopes that the normals of a block are made of.

@@ -130,8 +130,8 @@ impl<S, T: Real> UniformMixture<S, T> {
 
 impl<N: Ndf, S: NormalSampling<N>> NormalSampling<N> for UniformMixture<S, N::Scalar> {
     #[inline(always)]
-    fn course() -> Course {
-        S::course()
+    fn course(&self, surface: &N) -> Course {
+        self.other.course(surface)
     }
 
     /// A normal of `S`, or the one halfway between `wo` and a uniform direction.

@@ -12,10 +12,7 @@ pub trait NormalSampling<N: Ndf> {
     #[doc(hidden)]
     #[inline(always)]
     #[must_use]
-    fn course() -> Course
-    where
-        Self: Sized,
-    {
+    fn course(&self, _surface: &N) -> Course {
         Course::Straight
     }
 
@@ -72,8 +69,8 @@ pub struct AllNormals;
 
 impl<N: SampleVndf> NormalSampling<N> for VisibleNormals {
     #[inline(always)]
-    fn course() -> Course {
-        N::course()
+    fn course(&self, surface: &N) -> Course {
+        surface.course()
     }
 
     #[inline(always)]

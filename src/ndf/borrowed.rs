@@ -1,8 +1,11 @@
 //! The traits of references.
 
-use crate::ndf::{Ndf, SampleNdf, SampleVndf, Slopes, Vec2, Vec3};
+use crate::ndf::{Course, Ndf, SampleNdf, SampleVndf, Slopes, Vec2, Vec3};
 
 /// A borrowed distribution is one: for materials that share a large one, and for batches of one that is not `Copy`.
+///
+/// In a [`batch`](crate::batch) it takes as long as the distribution itself. Masks of GTR of a real γ above 2 alone
+/// take longer, since which of their forms they have is asked for each element: pass those by value.
 impl<N: Ndf + ?Sized> Ndf for &N {
     type Scalar = N::Scalar;
     #[inline(always)]
@@ -71,6 +74,10 @@ impl<N: SampleNdf + ?Sized> SampleNdf for &N {
 }
 
 impl<N: SampleVndf + ?Sized> SampleVndf for &N {
+    #[inline(always)]
+    fn course(&self) -> Course {
+        (**self).course()
+    }
     #[inline(always)]
     fn sample_vndf(&self, w: Vec3<N>, u: Vec2<N>) -> Vec3<N> {
         (**self).sample_vndf(w, u)

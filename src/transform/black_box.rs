@@ -198,8 +198,8 @@ impl<N: SampleNdf> SampleNdf for Transformed<N> {
 
 impl<N: SampleVndf> SampleVndf for Transformed<N> {
     #[inline(always)]
-    fn course() -> Course {
-        N::course()
+    fn course(&self) -> Course {
+        self.ndf.course()
     }
 
     #[inline(always)]

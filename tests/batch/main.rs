@@ -331,11 +331,18 @@ fn spectra_of_three_and_borrowed_distributions() {
     same("vndf of a table", &densities, |i| table.vndf(direction(&a.wo, i), direction(&a.wi, i)));
 }
 
-/// A borrowed one solves for the slopes of each element by itself, a mixture hands the question on.
+/// Borrowed distributions and mixtures hand the question on, of whatever types the elements are.
 #[test]
 fn slopes_of_borrowed_and_of_mixed_beckmann() {
     let surfaces = [0.3_f32, 0.01].map(|alpha| Beckmann::isotropic(alpha).unwrap());
     one(surfaces.each_ref(), |m, len, at| samples(m, len, at));
+    let (beckmann, ggx) = (surfaces[0], Ggx::isotropic(0.2_f32).unwrap());
+    let fast = BeckmannTo1e6::isotropic(0.2_f32).unwrap();
+    let any: [[&dyn SampleVndf<Scalar = f32>; 2]; 4] =
+        [[&beckmann, &ggx], [&ggx, &beckmann], [&fast, &fast], [&ggx, &fast]];
+    for pair in any {
+        one(pair, |m, len, at| samples(m, len, at));
+    }
     let mixture = UniformMixture::new(VisibleNormals, 0.3).unwrap();
     let mixed =
         surfaces.map(|surface| RoughConductor::new(surface, Perfect::<f32>::new()).sampled_by(mixture));
