@@ -18,8 +18,7 @@ use crate::vector::{at_least_cosine, dot, normalized};
 /// singular values of the matrix.
 ///
 /// # Special cases
-/// As those of the distribution at rest: heights keep their sign. Λ loses its digits where w.z times the
-/// matrix is subnormal; σ does not.
+/// As those of the distribution at rest: heights keep their sign.
 ///
 /// # Example
 /// A distribution of one's own, drawn out to twice its length along x.
@@ -179,7 +178,14 @@ impl<N: Ndf> Ndf for Transformed<N> {
     fn lambda(&self, w: Vec3<Self>) -> N::Scalar {
         // Of the upper side: normalised, a height may vanish and take its sign along.
         let [x, y, z]: [N::Scalar; 3] = w.into();
-        let lambda = self.ndf.lambda(self.pulled_direction([x, y, z.abs()].into()).0);
+        let (direction, length) = self.pulled_direction([x, y, z.abs()].into());
+        let [_, _, height]: [N::Scalar; 3] = direction.into();
+        // A height that is nearly subnormal may have lost its digits with the length. There σ is all of z (1 + Λ).
+        let lambda = if height < N::Scalar::MIN_POSITIVE / N::Scalar::EPSILON {
+            length * self.ndf.sigma_above(direction) / z.abs() - N::Scalar::ONE
+        } else {
+            self.ndf.lambda(direction)
+        };
         if z < N::Scalar::ZERO { -N::Scalar::ONE - lambda } else { lambda }
     }
 
