@@ -21,11 +21,12 @@
 //! | [`deferred`] | – ; one number per pixel, before any light is known | a few products |
 //! | [`normal_map`] | what lies below the pixel in a texture, as one more Σ | lookups |
 //!
-//! A + 2Σ of GGX widens the tail with the peak, and the tail is everywhere: 3 times too bright where the
-//! kernel is as wide as α, 9 times where it is twice as wide. On a ball of α = 0.02, lit by one light, the root
-//! mean square error of r/(1 + r) is 35 times that of no filter; by [`gaussian::filtered`] it is a sixth of it,
-//! by [`polygon::mean_p22`] a thirtieth (`tests/it/filter/ball.rs`). Take one of these two for GGX
-//! where highlights are smaller than pixels.
+//! A + 2Σ of GGX widens the tail with the peak, and the tail is everywhere: 3 times too bright
+//! where the kernel is as wide as α, 9 times where it is twice as wide. On a ball of α = 0.02, lit
+//! by one light, the root mean square error of r/(1 + r) is 35 times that of no filter; by
+//! [`gaussian::filtered`] it is a sixth of it, by [`polygon::mean_p22`] a thirtieth
+//! (`tests/it/filter/ball.rs`). Take one of these two for GGX where highlights are smaller than
+//! pixels.
 //!
 //! **3. Is it needed?** [`Microsurface::change_by_filter`](crate::Microsurface::change_by_filter) and
 //! [`change_by_filter_at`](crate::Microsurface::change_by_filter_at) bound what is lost without.

@@ -67,8 +67,8 @@ where
     normals
 }
 
-/// How a block goes about its normals: as all of its elements do. The compiler knows it, but of elements that are known at
-/// run time alone.
+/// How a block goes about its normals: as all of its elements do. The compiler knows it, but of
+/// elements that are known at run time alone.
 #[inline(always)]
 fn course<P, M, B, I>(of: P::Block<'_>, maker: &M, body: &B) -> Course
 where

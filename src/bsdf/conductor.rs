@@ -185,13 +185,14 @@ where
     /// The mean of P22 over the parallelogram ([`polygon::mean_p22`]) over wm.z⁴ in the place of D.
     ///
     /// # Domain
-    /// Footprints of up to 1 in slopes: [`clamped(1.0)`](Footprint::clamped) makes them so. Where the half
-    /// vector is near the horizon, a parallelogram of first order may reach the highlight from there, and
-    /// wm.z⁻⁴ of its centre makes a pixel of it that is thousands of times too bright.
+    /// Footprints of up to 1 in slopes: [`clamped(1.0)`](Footprint::clamped) makes them so. Where
+    /// the half vector is near the horizon, a parallelogram of first order may reach the highlight
+    /// from there, and wm.z⁻⁴ of its centre makes a pixel of it that is thousands of times too
+    /// bright.
     ///
     /// # Special cases
-    /// A footprint of a point → [`eval`](Self::eval); one that is not finite, NaN too → 0, unless it is
-    /// [`clamped`](Footprint::clamped).
+    /// A footprint of a point → [`eval`](Self::eval); one that is not finite, NaN too → 0, unless
+    /// it is [`clamped`](Footprint::clamped).
     ///
     /// # Example
     /// ```

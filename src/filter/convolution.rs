@@ -102,19 +102,20 @@ impl<P: ShapeInvariant, M: Map> Microsurface<P, M> {
 }
 
 impl<M: Map> Microsurface<Ggx, M> {
-    /// How much convolution with a Gaussian of covariance Σ changes P22 at this slope, as a share of P22 there:
-    /// an upper bound.
+    /// How much convolution with a Gaussian of covariance Σ changes P22 at this slope, as a share
+    /// of P22 there: an upper bound.
     ///
     /// 12 tr(A⁻¹Σ)/(1 + tᵀA⁻¹t): far from the highlight the tail is smooth on the scale of the slope itself, and a pixel
     /// there needs no filter even where the highlight needs one.
     ///
     /// It bounds the exact convolution ([`gaussian::p22`](crate::filter::gaussian::p22)), not
-    /// [`filtered`](Self::filtered): A + 2Σ makes the tail brighter by a share that does not fall with the
-    /// slope, tr(A⁻¹Σ) where Σ is a multiple of A and up to 3 tr(A⁻¹Σ) along a line.
+    /// [`filtered`](Self::filtered): A + 2Σ makes the tail brighter by a share that does not fall
+    /// with the slope, tr(A⁻¹Σ) where Σ is a multiple of A and up to 3 tr(A⁻¹Σ) along a line.
     ///
     /// # Returns
-    /// 0 for Σ = 0. The second derivative bounds the change by 10 in place of 12, and what follows it by less than the rest as
-    /// long as the result is below 0.1; above it, filter. The largest change found is 0.91 of the bound.
+    /// 0 for Σ = 0. The second derivative bounds the change by 10 in place of 12, and what follows
+    /// it by less than the rest as long as the result is below 0.1; above it, filter. The largest
+    /// change found is 0.91 of the bound.
     ///
     /// # Example
     /// ```

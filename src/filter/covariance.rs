@@ -229,7 +229,8 @@ impl<T: Real> Covariance<T> {
     }
 }
 
-/// xx yy − xy² in the square of a unit, and the unit: a power of two, so that no product leaves the range of f64.
+/// xx yy − xy² in the square of a unit, and the unit: a power of two, so that no product leaves the
+/// range of f64.
 #[inline(always)]
 fn determinant([xx, xy, yy]: [f64; 3]) -> (f64, f64) {
     let largest = xx.abs().max(yy.abs()).max(xy.abs());

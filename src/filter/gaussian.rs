@@ -15,13 +15,18 @@
 //! | form | light at wrong slopes, ½ ∫ \|ΔP22\| | at the peak | tail |
 //! |---|---|---|---|
 //! | proxy, [`Microsurface::filtered`] | 20 % | +24 % | times 1 + 2σ²/α² |
-//! | [`filtered_by_two`] | 3.2 %, long kernels 12.5 % | ±2.4 %, long kernels ±5 % | right on the mean of directions; on the way to it ±19 % for σ ≤ α, 33 % beyond |
+//! | [`filtered_by_two`] | 3.2 %, long kernels 12.5 % | ±2.4 %, long kernels ±5 % | right, long kernels see below; on the way to it ±19 % for σ ≤ α, 33 % beyond |
 //! | [`filtered`] | 0.5 %, long kernels 1.3 % | ±1.2 % | right; on the way to it ±9 % for σ ≤ α, 33 % beyond |
 //!
-//! Each is the largest error found over kernels up to 8000 α wide: those that are as wide in every direction, and
-//! long ones of every elongation, lines too (`tests/it/filter/convolution.rs`). A line is the kernel of a footprint
-//! without width. Across it, on the way to the tail, where next to nothing is reflected, the three are too bright by a factor
-//! of up to 29,000, 250 and 4.7 for σ up to 22 α.
+//! Each is the largest error found over kernels up to 8000 α wide: those that are as wide in every
+//! direction, and long ones of every elongation, lines too (`tests/it/filter/convolution.rs`). A
+//! line is the kernel of a footprint without width. Across it, on the way to the tail, where next
+//! to nothing is reflected, the three are too bright by a factor of up to 29,000, 250 and 4.7 for σ
+//! up to 22 α.
+//!
+//! The far tail of [`filtered_by_two`] is that of its GGX, which a long kernel makes long: it is
+//! too bright along the kernel by the ratio of the larger to the smaller α² of that GGX, and too
+//! dark across it by the same.
 
 use crate::Real;
 use crate::elementary::exp;
@@ -47,11 +52,12 @@ const CORES: [[f64; 2]; 5] = [
     [0.012838625643086753, 0.00206853207848876],
 ];
 
-/// How a GGX of width 1 widens under a kernel 2Σ: the GGX that keeps its tail is that of I + k 2Σ, the Gaussian of
-/// what is left that of c (I + 2Σ).
+/// How a GGX of width 1 widens under a kernel 2Σ: the GGX that keeps its tail is that of I + k 2Σ,
+/// the Gaussian of what is left that of c (I + 2Σ).
 ///
-/// For an isotropic 2Σ = s I both are rational in √s. Others take the same of their geometric mean, √det(I + 2Σ) = 1 + s,
-/// corrected by their elongation. Fitted to the convolution by `tests/reference/filter_gaussian.py`.
+/// For an isotropic 2Σ = s I both are rational in √s. Others take the same of their geometric mean,
+/// √det(I + 2Σ) = 1 + s, corrected by their elongation. Fitted to the convolution by
+/// `tests/reference/filter_gaussian.py`.
 #[inline(always)]
 fn widening(kernel: &Principal) -> (f64, f64) {
     let Principal { geometric: s, larger, smaller } = *kernel;
@@ -180,8 +186,9 @@ impl Mixture {
 
     /// GGX(a A), of weight 1/a, filtered: what of it is still GGX, and the rest.
     ///
-    /// What is still GGX is either widened as the kernel is, aA + k 2Σ, with the tail of GGX(A) on the mean of all directions;
-    /// or a multiple of A, with its tail in every direction, but less like what is seen near the highlight.
+    /// What is still GGX is either widened as the kernel is, aA + k 2Σ, with the tail of GGX(A)
+    /// where the kernel is as wide in every direction; or a multiple of A, with its tail in every
+    /// direction, but less like what is seen near the highlight.
     #[inline(always)]
     fn tail<T: Real>(&self, a: f64, widened_by_kernel: bool) -> Option<(Tail<T>, Core<T>)> {
         let (k, c) = widening(&self.kernel(a));

@@ -30,14 +30,16 @@
 //! antialiased displacement and reflectance mapping"; Toksvig 2005, "Mipmapping normal maps"; Kaplanyan, Hill, Patney and
 //! Lefohn 2016, §5.5.
 
+mod toksvig;
+
 use core::ops::Add;
 
 use crate::Real;
-use crate::error::Error;
 use crate::filter::Covariance;
 use crate::frame::{Frame, normal_to_slope, slope_to_normal};
 use crate::map::difference_of_products;
-use crate::roughness::checked;
+
+pub use toksvig::{alpha_toksvig2005, exponent_toksvig2005, variance_toksvig2005};
 
 /// The mean and the covariance of the slopes of a part of a surface.
 ///
@@ -45,9 +47,9 @@ use crate::roughness::checked;
 /// moments it is E₁ + E₂ + E\[t₁\]E\[t₂\]ᵀ + E\[t₂\]E\[t₁\]ᵀ.
 ///
 /// # Special cases
-/// Made of numbers that are not finite they are not [finite](Self::is_finite): [`covariance`](Self::covariance)
-/// then is not either, and filters refuse it. Means leave such parts out, so that one bad texel does not spoil
-/// the levels above it.
+/// Made of numbers that are not finite they are not [finite](Self::is_finite):
+/// [`covariance`](Self::covariance) then is not either, and filters refuse it. Means leave such
+/// parts out, so that one bad texel does not spoil the levels above it.
 ///
 /// # Accuracy
 /// Means and covariances are formed in f64. With no difference of moments, a covariance is as accurate as the slopes
@@ -162,9 +164,11 @@ impl<T: Real> Moments<T> {
         Self::weighted_mean(parts.into_iter().map(|part| (part, T::ONE)))
     }
 
-    /// Moments of parts with weights, which need not sum to 1: a filter kernel over texels, the areas of facets.
+    /// Moments of parts with weights, which need not sum to 1: a filter kernel over texels, the
+    /// areas of facets.
     ///
-    /// Var = Σ wᵢ(Varᵢ + δᵢδᵢᵀ)/Σ wᵢ with δᵢ = meanᵢ − mean, in one pass whose terms are all positive.
+    /// Var = Σ wᵢ(Varᵢ + δᵢδᵢᵀ)/Σ wᵢ with δᵢ = meanᵢ − mean, in one pass whose terms are all
+    /// positive.
     ///
     /// # Returns
     /// `None` unless the weights of the parts that are finite have a sum above 0.
@@ -191,7 +195,8 @@ impl<T: Real> Moments<T> {
         (total > 0.0).then(|| Self { mean: mean.map(T::lit), covariance: covariance.map(T::lit) })
     }
 
-    /// Moments of `1 − share` of these slopes and `share` of the others: a step of bilinear and trilinear filtering.
+    /// Moments of `1 − share` of these slopes and `share` of the others: a step of bilinear and
+    /// trilinear filtering.
     ///
     /// # Special cases
     /// Where one of the two is not finite → the other.
@@ -307,96 +312,4 @@ fn mixed((m, c): Wide, (n, d): Wide, f: f64) -> Wide {
     let g = f * (1.0 - f);
     let between = [g * (x * x), g * (x * y), g * (y * y)];
     ([m[0] + f * x, m[1] + f * y], [0, 1, 2].map(|i| (1.0 - f) * c[i] + f * d[i] + between[i]))
-}
-
-/// The variance of slopes in each direction by the length of an average N of unit normals: (1 − |N|)/|N|.
-///
-/// Of normals spread by σ in each direction, |N| is 1/(1 + σ²) to second order in σ. It knows of no direction, and in slopes it is
-/// that about the average normal, without the factor of a tilt; [`Moments`] know both. The two agree to σ² for isotropic spread
-/// about z.
-///
-/// # Domain
-/// `average_normal`: not normalised; of an image, after decoding and before anything else.
-///
-/// # Special cases
-/// |N| ≥ 1 → 0: rounding alone makes an average longer than its terms. N = 0 → ∞, NaN → NaN.
-///
-/// # Accuracy
-/// The difference is that of the numbers given: |N| stored with an error δ leaves σ² uncertain by δ. In 8 bits, δ = 1/255, no α
-/// below 0.09 is told from a mirror.
-///
-/// # Example
-/// ```
-/// use microsurface::{Ggx, filter::{Covariance, normal_map::variance_toksvig2005}, glam::Vec3};
-/// let bumps = Vec3::new(0.2_f32, 0.0, 1.0).normalize() + Vec3::new(-0.2, 0.0, 1.0).normalize();
-/// let variance: f32 = variance_toksvig2005::<f32>(0.5 * bumps);
-/// assert!((variance - (1.04_f32.sqrt() - 1.0)).abs() < 1e-6); // half of 0.2²: all of it is along x
-/// let surface = Ggx::isotropic(0.1_f32)?.filtered_isotropic(variance)?;
-/// # Ok::<(), microsurface::Error>(())
-/// ```
-///
-/// # References
-/// Toksvig 2005, "Mipmapping normal maps".
-#[inline]
-#[must_use]
-pub fn variance_toksvig2005<T: Real>(average_normal: T::Vec3) -> T {
-    let (length, missing) = length_and_missing::<T>(average_normal);
-    T::lit(missing / length)
-}
-
-/// Toksvig's exponent s' = |N|s/(|N| + s(1 − |N|)) of a Blinn–Phong lobe of exponent s under an average normal N.
-///
-/// 1/s' = 1/s + σ² of [`variance_toksvig2005`]: the same filter where α² = 2/s, and the one of α'² = α² + 2σ². With
-/// [`alpha_walter2007`](crate::roughness::alpha_walter2007), α² = 2/(s + 2), it is so for s ≫ 2 only.
-///
-/// # Special cases
-/// N = 0 → 0, a lobe without direction; s = ∞ → 1/σ². |N| ≥ 1 → s.
-///
-/// # Example
-/// ```
-/// use microsurface::{filter::normal_map::exponent_toksvig2005, glam::Vec3};
-/// assert!((exponent_toksvig2005::<f32>(100.0, Vec3::new(0.0, 0.0, 0.9)) - 90.0 / 10.9).abs() < 1e-5);
-/// ```
-///
-/// # References
-/// Toksvig 2005.
-#[inline]
-#[must_use]
-pub fn exponent_toksvig2005<T: Real>(exponent: T, average_normal: T::Vec3) -> T {
-    let (length, missing) = length_and_missing::<T>(average_normal);
-    // Divided by s: finite for s = ∞ and 0 for s = 0.
-    T::lit(length / (length / exponent.to_f64() + missing))
-}
-
-/// α' = √(α² + 2σ²) by the length of an average normal.
-///
-/// # Errors
-/// [`Error::Alpha`] where α or α' is outside [`alpha_range`](crate::roughness::alpha_range), as for N = 0.
-///
-/// # Example
-/// ```
-/// use microsurface::{filter::normal_map::alpha_toksvig2005, glam::Vec3};
-/// let alpha = alpha_toksvig2005(0.3_f32, Vec3::new(0.0, 0.0, 1.0 / 1.08))?;
-/// assert!((alpha - 0.5).abs() < 1e-6);
-/// # Ok::<(), microsurface::Error>(())
-/// ```
-///
-/// # References
-/// Toksvig 2005, in slopes: its exponent is 2/α².
-#[inline]
-pub fn alpha_toksvig2005<T: Real>(alpha: T, average_normal: T::Vec3) -> Result<T, Error> {
-    let alpha = checked(alpha)?.to_f64();
-    let (length, missing) = length_and_missing::<T>(average_normal);
-    checked(T::lit(Real::sqrt(alpha * alpha + 2.0 * missing / length)))
-}
-
-/// |N| and max(0, 1 − |N|).
-#[inline]
-fn length_and_missing<T: Real>(average_normal: T::Vec3) -> (f64, f64) {
-    let [x, y, z] = Into::<[T; 3]>::into(average_normal).map(T::to_f64);
-    let square = x * x + y * y + z * z;
-    let length = Real::sqrt(square);
-    // 1 − |N| = (1 − |N|²)/(1 + |N|). NaN stays.
-    let missing = (1.0 - square) / (1.0 + length);
-    (length, if missing < 0.0 { 0.0 } else { missing })
 }

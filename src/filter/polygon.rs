@@ -133,7 +133,8 @@ pub(super) fn mean_of<P, M: Map>(
 /// ∫ P22 over the polygon of these vertices, in order: the share of facets whose slopes are within.
 ///
 /// # Domain
-/// Three or more vertices of a simple polygon, in either direction; fewer enclose nothing. Vertices within 1e70 α.
+/// Three or more vertices of a simple polygon, in either direction; fewer enclose nothing. Vertices
+/// within 1e70 α.
 ///
 /// # Returns
 /// A number in [0, 1].

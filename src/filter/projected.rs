@@ -53,10 +53,11 @@ use super::covariance::factor;
 /// [`Error::Covariance`] if Σ is not finite. [`Footprint::clamped`] makes footprints finite.
 ///
 /// # Accuracy
-/// Computed in f64 without cancellation, rounded once. The largest errors found by a search over α from 1e-3 to 1,
-/// footprints from 1e-7 to 1 and every shape of both: entries of A', relative to √(A'ᵢᵢA'ⱼⱼ), 2.2ε for f32 and 10ε for
-/// f64; its determinant 0.6 (4 + κ)ε and 1.8 (4 + κ)ε with the ratio κ of the principal α, the worst for long
-/// kernels along the wide axis, whose own direction is rounded.
+/// Computed in f64 without cancellation, rounded once. The largest errors found by a search over α
+/// from 1e-3 to 1, footprints from 1e-7 to 1 and every shape of both: entries of A', relative to
+/// √(A'ᵢᵢA'ⱼⱼ), 2.2ε for f32 and 10ε for f64; its determinant 0.6 (4 + κ)ε and 1.8 (4 + κ)ε with
+/// the ratio κ of the principal α, the worst for long kernels along the wide axis, whose own
+/// direction is rounded.
 ///
 /// # Example
 /// ```

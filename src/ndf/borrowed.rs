@@ -4,8 +4,9 @@ use crate::ndf::{Course, Ndf, SampleNdf, SampleVndf, Slopes, Vec2, Vec3};
 
 /// A borrowed distribution is one: for materials that share a large one, and for batches of one that is not `Copy`.
 ///
-/// In a [`batch`](crate::batch) it takes as long as the distribution itself. Masks of GTR of a real γ above 2 alone
-/// take longer, since which of their forms they have is asked for each element: pass those by value.
+/// In a [`batch`](crate::batch) it takes as long as the distribution itself. Masks of GTR of a real
+/// γ above 2 alone take longer, since which of their forms they have is asked for each element:
+/// pass those by value.
 impl<N: Ndf + ?Sized> Ndf for &N {
     type Scalar = N::Scalar;
     #[inline(always)]

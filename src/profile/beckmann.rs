@@ -29,10 +29,11 @@ use crate::vector::below_one;
 /// 2e-6. A subnormal D far out is 0, as is σ below the horizon where e^{−a²} is below 2⁻⁹² (f32) or 2⁻⁹⁷⁵ (f64).
 ///
 /// # Accuracy
-/// Relative, in units of ε of the scalar, f32 / f64, the largest found by a search over α from 1e-6 to 1e3,
-/// ratios of α up to 1000 and all directions (D of f32: 4.6 on denser samples of isotropic surfaces):
-/// - D 4.6 / 85 where the exponent is at most 26, 0.15 / 3.8 times the exponent beyond: in f64 the exponent's own
-///   rounding;
+/// Relative, in units of ε of the scalar, f32 / f64, the largest found by a search over α from 1e-6
+/// to 1e3, ratios of α up to 1000 and all directions (D of f32: 4.6 on denser samples of isotropic
+/// surfaces):
+/// - D 4.6 / 85 where the exponent is at most 26, 0.15 / 3.8 times the exponent beyond: in f64 the
+///   exponent's own rounding;
 /// - σ above the horizon 4.0 / 3.8, below it 3.8 (1 + a²);
 /// - Λ 6.0 / 54 where a² ≤ 26, 0.2 / 2.6 times a² beyond; G1 4.0 / 3.7 everywhere.
 ///

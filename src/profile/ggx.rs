@@ -16,10 +16,10 @@ use crate::vector::below_one;
 /// Λ is t/(2(1 + √(1 + t))), t = wᵀAw/w.z²: the textbook's (√(1 + t) − 1)/2 is 0 in f32 for t < 1e-7.
 ///
 /// # Accuracy
-/// Relative, in units of ε of the scalar, f32 / f64, the largest found by a search over α from 1e-6 to 1e3,
-/// ratios of α up to 1000 and all directions: D 5.4 / 5.2, σ 2.0 / 2.0 above the horizon and 2.9 / 2.9 below it,
-/// Λ 3.0 / 3.0, G1 2.3 / 2.1. In f32 that is 6.4e-7 for D. Under a [`Linear`](crate::Linear) map D also
-/// loses what [`Linear`](crate::Linear) says.
+/// Relative, in units of ε of the scalar, f32 / f64, the largest found by a search over α from 1e-6
+/// to 1e3, ratios of α up to 1000 and all directions: D 5.4 / 5.2, σ 2.0 / 2.0 above the horizon
+/// and 2.9 / 2.9 below it, Λ 3.0 / 3.0, G1 2.3 / 2.1. In f32 that is 6.4e-7 for D. Under a
+/// [`Linear`](crate::Linear) map D also loses what [`Linear`](crate::Linear) says.
 ///
 /// # Example
 /// ```

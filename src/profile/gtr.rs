@@ -21,7 +21,8 @@
 //! All but the spline can draw visible normals, with the density D_w of D itself.
 //!
 //! |γ − 1| |ln α²| must not exceed 700, so that α^(2γ−2) is a number of f64. That refuses γ = 10 below
-//! α = 1.3e-17, and nothing that f32 can hold.
+//! α = 1.3e-17. In f32, whose smallest α is 4.7e-10, it refuses γ above 17, which [`Density`] alone
+//! has.
 
 pub mod closed;
 pub mod components;
@@ -58,9 +59,10 @@ use crate::vector::below_one;
 /// constructors check of each alone: below it, G2 of denormal cosines can be NaN.
 ///
 /// # Accuracy
-/// Relative, in units of ε of the scalar, f32 / f64, the largest found by a search over α from 1e-6 to 1 and all
-/// directions: D 4.2 / 24 for γ up to 10, the worst where the power is steepest. Closed masks of γ ≤ 4: σ 7 / 7
-/// above the horizon and 10 / 10 below it, Λ 9 / 9, G1 7 / 7; of γ ≤ 10: σ 12 / 12 and 30 / 28, Λ 28 / 30, G1 12 / 13.
+/// Relative, in units of ε of the scalar, f32 / f64, the largest found by a search over α from 1e-6
+/// to 1 and all directions: D 4.2 / 24 for γ up to 10, the worst where the power is steepest.
+/// Closed masks of γ ≤ 4: σ 7 / 7 above the horizon and 10 / 10 below it, Λ 9 / 9, G1 7 / 7; of γ ≤
+/// 10: σ 12 / 12 and 30 / 28, Λ 28 / 30, G1 12 / 13.
 ///
 /// # References
 /// Burley 2012, "Physically-based shading at Disney", Appendix B; Dimov 2015; Atanasov, Koylazov, Dimov and

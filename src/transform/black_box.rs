@@ -180,7 +180,8 @@ impl<N: Ndf> Ndf for Transformed<N> {
         let [x, y, z]: [N::Scalar; 3] = w.into();
         let (direction, length) = self.pulled_direction([x, y, z.abs()].into());
         let [_, _, height]: [N::Scalar; 3] = direction.into();
-        // A height that is nearly subnormal may have lost its digits with the length. There σ is all of z (1 + Λ).
+        // A height that is nearly subnormal may have lost its digits with the length. There σ is
+        // all of z (1 + Λ).
         let lambda = if height < N::Scalar::MIN_POSITIVE / N::Scalar::EPSILON {
             length * self.ndf.sigma_above(direction) / z.abs() - N::Scalar::ONE
         } else {

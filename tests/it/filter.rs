@@ -5,6 +5,7 @@ mod convolution;
 mod covariance;
 mod deferred;
 mod footprints;
+mod largest;
 mod means;
 mod normal_map;
 mod projected;

@@ -31,9 +31,10 @@ use crate::frame::Frame;
 /// Nothing panics.
 ///
 /// # Accuracy
-/// Let S be the size of what dH is the sum of: the steps of point and light over the distance to the light, those of point and
-/// eye over that to the eye, and |ω||H|. Then slope steps are exact to 7ε S (1 + |h|)/H.z², and projected ones to
-/// 3ε S (1 + 1/|H|)/|H|: the largest errors found by a search over all directions, short half vectors too.
+/// Let S be the size of what dH is the sum of: the steps of point and light over the distance to
+/// the light, those of point and eye over that to the eye, and |ω||H|. Then slope steps are exact
+/// to 7ε S (1 + |h|)/H.z², and projected ones to 3ε S (1 + 1/|H|)/|H|: the largest errors found by
+/// a search over all directions, short half vectors too.
 ///
 /// # Example
 /// ```

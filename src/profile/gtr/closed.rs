@@ -104,7 +104,8 @@ impl<T: Real> Gtr<T, ()> {
     /// mind 0.8 kB takes `Gtr::isotropic(alpha, 1.0)`.
     ///
     /// # Errors
-    /// [`Error::Alpha`] or [`Error::AlphaAboveOne`] unless 0 < α ≤ 1, [`Error::Gamma`] unless |γ − 1| |ln α²| ≤ 700.
+    /// [`Error::Alpha`] or [`Error::AlphaAboveOne`] unless 0 < α ≤ 1.
+    /// [`Error::Gamma`] unless |γ − 1| |ln α²| ≤ 700.
     ///
     /// # Example
     /// ```

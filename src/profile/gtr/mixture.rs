@@ -75,13 +75,15 @@ impl<T: Real> Gtr<T, Mixture<T, 8>> {
     /// the integers [`Gtr::closed`] is smaller and exact to rounding.
     ///
     /// # Errors
-    /// [`Error::Alpha`] or [`Error::AlphaAboveOne`] unless 0 < α ≤ 1, [`Error::Gamma`] unless 0 ≤ γ ≤ 10 and
-    /// |γ − 1| |ln α²| ≤ 700: in f64, below α = 1.3e-17, the largest γ is less than 10.
+    /// [`Error::Alpha`] or [`Error::AlphaAboveOne`] unless 0 < α ≤ 1.
+    /// [`Error::Gamma`] unless 0 ≤ γ ≤ 10 and |γ − 1| |ln α²| ≤ 700: in f64, below α = 1.3e-17, the
+    /// largest γ is less than 10.
     ///
     /// # Accuracy
-    /// max |ΔG1| = 8e-6 for α ≥ 0.001, 3.8e-7 for α ≥ 0.01 (see [`nodes`](super::nodes)), continuous in γ to 1.7e-6 (γ = 2,
-    /// α = 0.001) and in α up to 1. σ and Λ below the horizon have fewer digits where γ is above 3 or α is
-    /// small: see the table of [`nodes`](super::nodes).
+    /// max |ΔG1| = 8e-6 for α ≥ 0.001, 3.8e-7 for α ≥ 0.01 (see [`nodes`](super::nodes)),
+    /// continuous in γ to 1.7e-6 (γ = 2, α = 0.001) and in α up to 1. σ and Λ below the horizon
+    /// have fewer digits where γ is above 3 or α is small: see the table of
+    /// [`nodes`](super::nodes).
     ///
     /// # Example
     /// ```

@@ -15,8 +15,8 @@
 //! | 8 | 8e-6 | 3.6e-7 | 4e-9 | 4e-12 |
 //! | 12 | 1.3e-7 | 1.2e-9 | 1.6e-12 | |
 //!
-//! Below the horizon σ is the area z Λ alone, a share of the tail that few nodes do not see when it is
-//! light. The largest relative errors found of σ and Λ there, and so of ∫D_w, with 8 nodes:
+//! Below the horizon σ is the area z Λ alone, a share of the tail that few nodes do not see when it
+//! is light. The largest relative errors found of σ and Λ there, and so of ∫D_w, with 8 nodes:
 //!
 //! | γ | α ≥ 0.001 | α ≥ 0.01 | α ≥ 0.1 |
 //! |---|---|---|---|
@@ -25,9 +25,10 @@
 //! | 3 … 4 | 0.7 | 0.015 | 8e-6 |
 //! | 4 … 10 | 1 | 1 | 0.15 |
 //!
-//! The area itself is small where they are large: 3e-18 for 45° below the horizon, γ = 4.5, α = 0.003.
-//! [`Gtr::closed`] has every digit at the integers. [`Components`](super::components::Components) have 6 of
-//! them for every γ. Samples have the density of D all the same.
+//! The area itself is small where they are large: 3e-18 for 45° below the horizon, γ = 4.5, α =
+//! 0.003. [`Gtr::closed`] has every digit at the integers.
+//! [`Components`](super::components::Components) have 6 of them for every γ. Samples have the
+//! density of D all the same.
 //!
 //! The Gauss rule is in ln t because widths spread over decades: in t itself 8 nodes are off by 0.2 at α = 0.001.
 

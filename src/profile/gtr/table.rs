@@ -6,7 +6,8 @@
 //!
 //! # Accuracy
 //! The largest |ΔG1| of 8 nodes found, tables from α = 0.001 to 1: 8e-6 for γ ≤ 2, 1.2e-5 for γ ≤ 4
-//! (γ = 3.1, α = 0.965), 1.6e-4 for γ ≤ 10 (γ just above 9, α = 0.965), near both ends of the table. D is as exact as that of [`Gtr::isotropic`](crate::Gtr::isotropic), and of its formula.
+//! (γ = 3.1, α = 0.965), 1.6e-4 for γ ≤ 10 (γ just above 9, α = 0.965), near both ends of the
+//! table. D is as exact as that of [`Gtr::isotropic`](crate::Gtr::isotropic), and of its formula.
 
 use crate::Real;
 use crate::error::Error;

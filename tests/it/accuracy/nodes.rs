@@ -254,7 +254,8 @@ fn backfacing_of_integer(gamma: f64, alpha: f64, cot: f64) -> f64 {
     closed!(2 3 4 5 6 7 8 9 10)
 }
 
-/// The largest relative error of σ below the horizon, where it is the area of a share of the tail, for γ ∈ `gammas`.
+/// The largest relative error of σ below the horizon, where it is the area of a share of the tail,
+/// for γ ∈ `gammas`.
 fn below_the_horizon<const N: usize>(smallest: f64, gammas: core::ops::Range<f64>) -> Worst {
     let mut worst = Worst::default();
     for alpha in [1.0, 3.0, 10.0, 100.0].map(|k| k * smallest).into_iter().filter(|&a| a < 1.0) {
@@ -274,7 +275,7 @@ fn below_the_horizon<const N: usize>(smallest: f64, gammas: core::ops::Range<f64
     worst
 }
 
-/// What `profile::gtr::nodes` states of σ and Λ where little is seen.
+/// The table that `profile::gtr::nodes` states for σ and Λ where little is seen.
 #[test]
 fn light_tails_below_the_horizon() {
     for (smallest, gammas, bound) in [
@@ -314,6 +315,23 @@ fn the_area_along_the_normal_is_one() {
                 let nearest = (gamma - gamma.round()).abs();
                 assert!((g1 - whole).abs() < 30.0 * nearest + 1e-6, "α {alpha} γ {gamma:e}: {g1} {whole}");
             }
+        }
+    }
+}
+
+/// Interpolated weights too: a negative one, which counts as 0, would leave more than 1.
+#[test]
+fn the_area_along_the_normal_is_one_in_tables() {
+    let tiny = (1..=320).step_by(3).map(|power| 10_f64.powi(-power));
+    for gamma in tiny.chain(gammas()) {
+        let table = GtrTable::<f64, 8>::new(gamma, 1e-3).unwrap();
+        let narrow = GtrTable::<f32, 8>::new(gamma as f32, 1e-3).unwrap();
+        for i in 0..60 {
+            let alpha = 10_f64.powf(-0.05 * f64::from(i));
+            let sigma = table.isotropic(alpha).unwrap().sigma(DVec3::Z);
+            assert!((sigma - 1.0).abs() < 1e-15, "α {alpha} γ {gamma:e}: {sigma}");
+            let sigma = narrow.isotropic(alpha as f32).unwrap().sigma(microsurface::glam::Vec3::Z);
+            assert!((sigma - 1.0).abs() < 5e-7, "f32 α {alpha} γ {gamma:e}: {sigma}");
         }
     }
 }

@@ -11,7 +11,7 @@ use microsurface::glam::{DVec2, DVec3};
 /// Pixels along an edge of the picture, which the ball fills; both are seen and lit from afar.
 const PIXELS: u32 = 48;
 
-/// What the pixel sees: the half vector, its frame, and its footprint.
+/// Directions in the frame of the pixel, and the footprint of its half vectors.
 struct Seen {
     wi: DVec3,
     wo: DVec3,
@@ -39,8 +39,8 @@ fn seen(place: DVec2, light: DVec3) -> Option<Seen> {
     })
 }
 
-/// Root mean square errors over the ball, relative to its root mean square: unfiltered, A + 2Σ, the convolution
-/// with a Gaussian of the variance of a box, and the mean over the footprint.
+/// Root mean square errors over the ball, relative to its root mean square: unfiltered, A + 2Σ, the
+/// convolution with a Gaussian of the variance of a box, and the mean over the footprint.
 fn errors(light: DVec3, alpha: f64, tone: impl Fn(f64) -> f64) -> [f64; 4] {
     let surface = Ggx::isotropic(alpha).unwrap();
     let material = RoughConductor::new(surface, Perfect::<f64>::new());
@@ -72,7 +72,7 @@ fn errors(light: DVec3, alpha: f64, tone: impl Fn(f64) -> f64) -> [f64; 4] {
     squares.map(|square| (square / reference).sqrt())
 }
 
-/// What the table in the documentation of `filter` warns of: away from its peak GGX needs no filter, and A + 2Σ
+/// The warning in the documentation of `filter`: away from its peak GGX needs no filter, and A + 2Σ
 /// makes it brighter there.
 #[test]
 fn a_small_highlight_on_a_ball() {
@@ -83,7 +83,8 @@ fn a_small_highlight_on_a_ball() {
     });
     let (mut linear_worse, mut sums) = (0, [0.0_f64; 4]);
     for light in lights {
-        // Whether a pixel's centre meets the peak is chance: what all pixels show is seen in r/(1 + r).
+        // Whether a pixel's centre meets the peak is chance: what all pixels show is seen in r/(1 +
+        // r).
         let toned = errors(light, alpha, |r| r / (1.0 + r));
         let linear = errors(light, alpha, |r| r);
         println!("{toned:.4?} {linear:.4?}");
@@ -97,6 +98,7 @@ fn a_small_highlight_on_a_ball() {
         "unfiltered {unfiltered:.4}, A + 2Σ {widened:.4}, convolved {convolved:.4}, mean {mean:.4}; {linear_worse}"
     );
     assert!(widened > 30.0 * unfiltered && convolved < 0.2 * unfiltered && mean < 0.04 * unfiltered);
-    // In the mean square of radiance itself, where one pixel with the peak outweighs all, it is so for most lights.
+    // In the mean square of radiance itself, where one pixel with the peak outweighs all, it is so
+    // for most lights.
     assert!(linear_worse >= 6, "{linear_worse}");
 }

@@ -111,8 +111,9 @@ fn compared(f: impl Fn(DVec2) -> f64, g: impl Fn(DVec2) -> f64, stretch: DVec2, 
     [moved, largest, f(DVec2::ZERO) / g(DVec2::ZERO) - 1.0]
 }
 
-/// The statements of the table in the documentation of `filter::gaussian`, from both sides: light at wrong slopes, the
-/// largest relative error out to 1000 (isotropic) and 7 (others) widths of the filtered surface, and at the peak.
+/// The statements of the table in the documentation of `filter::gaussian`, from both sides: light
+/// at wrong slopes, the largest relative error out to 1000 (isotropic) and 7 (others) widths of the
+/// filtered surface, and at the peak.
 #[test]
 fn the_mixtures_are_as_near_to_the_convolution_as_stated() {
     let surface = Ggx::isotropic(1.0_f64).unwrap();
@@ -164,6 +165,26 @@ fn the_mixtures_are_as_near_to_the_convolution_as_stated() {
             assert!(worst <= stated && *worst > 0.8 * stated, "{shape}: {worst} of {stated} at {at:?}");
         }
     }
+}
+
+/// The far tail, of an isotropic kernel, of a long one by two and of a long one by seven.
+#[test]
+fn tails_are_as_stated() {
+    let surface = Ggx::isotropic(0.1_f64).unwrap();
+    let tail =
+        |f: &dyn Fn(DVec2) -> f64| [DVec2::X, DVec2::Y].map(|axis| f(1e7 * axis) / surface.p22(1e7 * axis));
+    let near = |[x, y]: [f64; 2], ratio: f64| {
+        assert!((x / ratio - 1.0).abs() < 1e-6 && (y * ratio - 1.0).abs() < 1e-6, "{x} {y} {ratio}");
+    };
+    let wide = gaussian::filtered_by_two(&surface, Covariance::isotropic(0.02)).unwrap();
+    near(tail(&|t| wide.p22(t)), 1.0);
+    let kernel = Covariance::new(0.5, 0.0, 1e-4).unwrap();
+    let long = gaussian::filtered_by_two(&surface, kernel).unwrap();
+    let [larger, smaller, _] = long.tail().1.roughness_matrix().unwrap().principal();
+    assert!(larger > 2.0 * smaller);
+    near(tail(&|t| long.p22(t)), (larger / smaller).powi(2));
+    let seven = gaussian::filtered(&surface, kernel).unwrap();
+    near(tail(&|t| seven.p22(t)), 1.0);
 }
 
 /// Masks, normalisation and samples of the mixture are those of a surface.
@@ -287,7 +308,8 @@ fn what_a_filter_would_change_is_known_before() {
     assert!(beckmann_worst < 1e-4, "{beckmann_worst:e}");
     assert!(tightest > 0.3, "a bound so wide is of no use: {tightest}");
     let surface = Ggx::isotropic(0.1).unwrap();
-    // The limit of small changes is 10 in place of 12 for a line along the slope, far out. Beyond it 10 is no bound.
+    // The limit of small changes is 10 in place of 12 for a line along the slope, far out. Beyond
+    // it 10 is no bound.
     let far = |share: f64| {
         let (slope, kernel) = (DVec2::new(100.0, 0.0), Covariance::new(share * 1e4, 0.0, 0.0).unwrap());
         let change = gaussian::p22(&surface, kernel, slope) / surface.p22(slope) - 1.0;
@@ -297,7 +319,8 @@ fn what_a_filter_would_change_is_known_before() {
     assert!((change / bound - 10.0 / 12.0).abs() < 1e-3, "{change:e} {bound:e}");
     let (change, bound) = far(0.0081);
     assert!(bound < 0.1 && change > 0.9 * bound && change <= bound, "{change:e} {bound:e}");
-    // A + 2Σ changes the tail by a share that does not fall: tr(A⁻¹Σ), and 3 times that along a line.
+    // A + 2Σ changes the tail by a share that does not fall: tr(A⁻¹Σ), and 3 times that along a
+    // line.
     let (slope, line) = (DVec2::new(300.0, 0.0), Covariance::new(1e-7, 0.0, 0.0).unwrap());
     for (kernel, share) in [(Covariance::isotropic(1e-6), 2e-4), (line, 3e-5)] {
         let change = surface.filtered(kernel).unwrap().p22(slope) / surface.p22(slope) - 1.0;

@@ -1,4 +1,5 @@
-//! Densities, areas and masks, over widths from 1e-6 to 1e3, their ratios up to 1e3, and all directions.
+//! Densities, areas and masks, over widths from 1e-6 to 1e3, their ratios up to 1e3, and all
+//! directions.
 
 use microsurface::profile::gtr::Density;
 use microsurface::{Beckmann, Ggx, Gtr, Ndf, Real};
@@ -92,7 +93,7 @@ impl Search {
         }
     }
 
-    /// What an input says, with the units of an error: 0 where it is another search's.
+    /// A surface and a direction, of any size and at the edges where much happens.
     fn input<T: Real>(&self, point: [f64; 8]) -> Input<T> {
         let [wide, aspect, ratio, kind, height, turn, gamma, choice] = point;
         let is_gtr = !matches!(self.family, Family::Ggx | Family::Beckmann);
@@ -221,9 +222,11 @@ fn decades(x: f64, low: f64, high: f64) -> f64 {
     10_f64.powf(low + (high - low) * x)
 }
 
-/// The worst inputs that the long search has found: name, domain, scalar, γ or "-", αx, αy, x, y, z and error in ε.
+/// The worst inputs that the long search has found: name, domain, scalar, γ or "-", αx, αy, x, y, z
+/// and error in ε.
 ///
-/// Written by `cargo test --release --test it the_worst_distributions -- --ignored --nocapture`, lines of "worst".
+/// Written by `cargo test --release --test it the_worst_distributions -- --ignored --nocapture`,
+/// lines of "worst".
 const WORST: &str = include_str!("../../../reference/worst.tsv");
 
 const fn scalar<T: Real>() -> &'static str {

@@ -110,8 +110,9 @@ impl Given {
                 if log.zero() {
                     return of_ggx(&s2, &z);
                 }
-                // ∫ of GGX of the squared width t over dt/t from α² to 1, over −ln α²: with r = √(z² + t s²) and
-                // dt/t = 2r dr/(r² − z²), ½ (r − z) becomes ∫ r/(r + z) dr = r − z ln(r + z).
+                // ∫ of GGX of the squared width t over dt/t from α² to 1, over −ln α²: with r =
+                // √(z² + t s²) and dt/t = 2r dr/(r² − z²), ½ (r − z) becomes ∫ r/(r + z) dr = r − z
+                // ln(r + z).
                 let at = |t: &Exact| {
                     let r = (&z.square() + &(t * &s2)).sqrt();
                     &r - &(&z * &(&r + &z).ln())
@@ -119,7 +120,8 @@ impl Given {
                 &(&at(&Exact::new(1.0)) - &at(&alpha2)) / &-&log
             }
             _ => {
-                // The mixture of Student's t: the share C(n,k)/(k+1) (1−t)ᵏ t^{n−k} has the area ½ r Σ_{i>k} aᵢ ρⁱ.
+                // The mixture of Student's t: the share C(n,k)/(k+1) (1−t)ᵏ t^{n−k} has the area ½
+                // r Σ_{i>k} aᵢ ρⁱ.
                 let n = u32::from(gamma) - 2;
                 let r2 = &z.square() + &(&alpha2 * &s2);
                 let rho = &(&alpha2 * &s2) / &r2;

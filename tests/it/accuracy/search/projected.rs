@@ -74,8 +74,8 @@ fn input<T: Real>([a, b, turn, kind, u, v, along, apart, by]: [f64; 9]) -> Input
     }
 }
 
-/// Errors of the entries, relative to √(A'ᵢᵢA'ⱼⱼ), in ε, and of the determinant, in (4 + κ) ε with the ratio κ of
-/// the principal widths.
+/// Errors of the entries, relative to √(A'ᵢᵢA'ⱼⱼ), in ε, and of the determinant, in (4 + κ) ε with
+/// the ratio κ of the principal widths.
 fn errors<T: Real>(input: &Input<T>) -> [f64; 2] {
     let [r11, r12, r22] = input.factor;
     let Ok(map) = Linear::from_inverse([[r11, r12], [T::ZERO, r22]]) else { return [0.0; 2] };
@@ -101,7 +101,8 @@ fn errors<T: Real>(input: &Input<T>) -> [f64; 2] {
     let entries = (xx / x).max(yy / y).max(xy / (x * y).sqrt());
     let determinant = exact.determinant();
     let of_determinant = (&value.determinant() - &determinant).abs().to_f64() / determinant.to_f64();
-    // The ratio of the principal widths: the kernel's own factor is rounded, across the wide axis too.
+    // The ratio of the principal widths: the kernel's own factor is rounded, across the wide axis
+    // too.
     let [xx, xy, yy] = core::array::from_fn(|i| a.0[i].to_f64());
     let largest = 0.5 * (xx + yy) + (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt();
     let ratio = largest / a.determinant().sqrt().to_f64();

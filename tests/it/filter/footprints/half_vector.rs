@@ -191,7 +191,8 @@ fn the_matrix_per_point_is_that_of_a_curved_surface() {
     }
 }
 
-/// Frame, directions, distances and motion in f32, of any geometry that a point of the unit cube can say.
+/// Frame, directions, distances and motion in f32, of any geometry that a point of the unit cube
+/// can say.
 struct Single {
     frame: Frame<f32>,
     directions: [Vec3; 2],
@@ -232,7 +233,8 @@ impl Single {
         }
     }
 
-    /// The errors of the steps in slopes and projected, in ε of what the documentation compares them with.
+    /// The errors of the steps in slopes and projected, in ε of what the documentation compares
+    /// them with.
     fn errors(&self) -> [f64; 2] {
         let Self { frame, directions: [wi, wo], distances: [near, far], motion } = self;
         let single = HalfVector::<f32>::at_distances(frame, *wi, *near, *wo, *far);
