@@ -51,22 +51,21 @@
 //! ```
 
 mod blocks;
-mod conductor;
-#[doc(hidden)]
-pub mod dispatch;
 mod filtered;
 mod map;
 mod material;
 mod ndf;
 mod normals;
+mod reflection;
+pub mod simd;
 mod varied;
 
 pub use blocks::{Sink, Source};
-pub use conductor::ReflectionBatch;
 pub use filtered::{Filtered, FilteredProjected, Footprints};
 pub use map::{Function, map, map_inlined};
 pub use material::{Material, Materials};
 pub use ndf::NdfBatch;
+pub use reflection::ReflectionBatch;
 pub use varied::{AlphaPairs, Alphas, Base, RoughnessMatrices, Variation, Varied};
 
 /// Unit vectors, their components in three slices of equal length.

@@ -3,7 +3,7 @@
 //! Each function is straight-line arithmetic with selects in place of branches: no calls but the square root,
 //! no table lookups. A plain loop over a slice therefore becomes vector code, and the result of a lane does
 //! not depend on its neighbours. One generic body serves f32 and f64; only the coefficients differ
-//! (`kernel.rs`), and beside each table stands the error of the approximant.
+//! (`coefficients/`), and beside each table stands the error of the approximant.
 //!
 //! Errors are stated in ulp of the exact result (f64) or of the result of the same function in f64 (f32),
 //! as measured by the crate's tests, which fail when a statement becomes wrong or twice too pessimistic.
@@ -22,12 +22,15 @@
 //! | [`erfc`], [`erfcx`] | 1 | 0 | an exponential |
 //! | [`erf_inv`], [`erfc_inv`] | 2 | 1 | a logarithm |
 
+pub(crate) mod bits;
+mod coefficients;
 mod erf;
 mod erf_inv;
 mod erfcx;
+pub(crate) mod exact;
 mod exp;
-pub(crate) mod kernel;
 mod log;
+pub(crate) mod polynomial;
 mod trig;
 
 pub use erf::{erf, erfc};

@@ -2,9 +2,6 @@
 
 use core::fmt;
 
-use crate::Real;
-use crate::roughness::alpha_range;
-
 /// Why a constructor refused its arguments; every variant names the offending value.
 ///
 /// Values are kept as f64, which holds an f32 exactly. Evaluation has no errors: it never panics and says
@@ -12,7 +9,7 @@ use crate::roughness::alpha_range;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Error {
-    /// A slope width α is not a finite number within [`alpha_range`].
+    /// A slope width α is not a finite number within [`alpha_range`](crate::roughness::alpha_range).
     Alpha {
         /// The α given.
         value: f64,
@@ -33,7 +30,7 @@ pub enum Error {
         /// The largest γ this constructor accepts.
         largest: f64,
     },
-    /// A roughness matrix is not finite, not positive definite, or has a principal α outside [`alpha_range`].
+    /// A roughness matrix is not finite, not positive definite, or has a principal α outside [`alpha_range`](crate::roughness::alpha_range).
     RoughnessMatrix {
         /// Its xx entry, α² units.
         xx: f64,
@@ -90,13 +87,6 @@ pub enum Error {
         /// The value given.
         value: f64,
     },
-}
-
-impl Error {
-    pub(crate) fn alpha<T: Real>(value: T) -> Self {
-        let (smallest, largest) = alpha_range::<T>();
-        Self::Alpha { value: value.to_f64(), smallest: smallest.to_f64(), largest: largest.to_f64() }
-    }
 }
 
 impl fmt::Display for Error {

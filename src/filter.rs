@@ -72,20 +72,14 @@
 //! specular antialiasing", and 2021, "Stable geometric specular antialiasing with projected-space NDF filtering",
 //! JCGT 10(2).
 
-mod aligned;
-mod convolution;
-pub mod covariance;
 pub mod deferred;
 mod footprint;
 pub mod gaussian;
-pub mod jacobian;
+mod means;
 pub mod normal_map;
-pub mod polygon;
 pub mod projected;
-pub mod quad;
-pub mod ray;
-pub mod rectangle;
+mod widened;
 
-pub use convolution::determinant_tokuyoshi2019;
-pub use covariance::Covariance;
-pub use footprint::Footprint;
+pub use footprint::{Covariance, Footprint, covariance, jacobian, quad, ray};
+pub use means::{MeanOverParallelogram, polygon, rectangle};
+pub use widened::determinant_tokuyoshi2019;

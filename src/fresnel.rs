@@ -4,8 +4,8 @@
 //! material pays for three channels only where it has three.
 
 use crate::Real;
+use crate::elementary::exact::{two_product, two_sum};
 use crate::error::Error;
-use crate::map::{two_product, two_sum};
 
 /// A reflectance: one number, or three.
 pub trait Spectrum: Copy + core::fmt::Debug + PartialEq + Send + Sync + 'static {

@@ -33,8 +33,8 @@
 //! |---|---|
 //! | the usual surface | [`Ggx`] |
 //! | a Gaussian surface, exact under filtering and sums | [`Beckmann`] |
-//! | the same, its visible normals in batches in half the time | [`BeckmannTo1e6`](profile::beckmann::BeckmannTo1e6) |
-//! | heavier or lighter tails | [`Gtr::isotropic`], at integer γ [`Gtr::closed`]; see [`profile::gtr`] |
+//! | the same, its visible normals in batches in half the time | [`BeckmannTo1e6`](beckmann::BeckmannTo1e6) |
+//! | heavier or lighter tails | [`Gtr::isotropic`], at integer γ [`Gtr::closed`]; see [`gtr`] |
 //! | the same roughness in every direction | `isotropic(alpha)` |
 //! | two roughnesses along the axes | `anisotropic(alpha_x, alpha_y)` |
 //! | roughness along any direction | `from_roughness_matrix` with a [`RoughnessMatrix`] |
@@ -96,13 +96,17 @@ extern crate std;
 #[doc = include_str!("../README.md")]
 struct Readme;
 
+mod alpha;
 pub mod batch;
+pub mod beckmann;
 pub mod bsdf;
 pub mod elementary;
 mod error;
 pub mod filter;
 pub mod frame;
 pub mod fresnel;
+mod ggx;
+pub mod gtr;
 pub mod map;
 mod microsurface;
 pub mod ndf;
@@ -116,12 +120,11 @@ mod vector;
 
 pub use glam;
 
+pub use beckmann::Beckmann;
 pub use error::Error;
-pub use map::{AxisAligned, Isotropic, Linear};
+pub use ggx::Ggx;
+pub use gtr::Gtr;
+pub use map::{AxisAligned, Isotropic, Linear, RoughnessMatrix};
 pub use microsurface::Microsurface;
 pub use ndf::{Ndf, SampleNdf, SampleVndf};
-pub use profile::beckmann::Beckmann;
-pub use profile::ggx::Ggx;
-pub use profile::gtr::Gtr;
 pub use real::Real;
-pub use roughness::RoughnessMatrix;

@@ -13,12 +13,14 @@ mod axis_aligned;
 mod gram;
 mod isotropic;
 mod linear;
+mod roughness_matrix;
 
 pub use axis_aligned::AxisAligned;
-pub(crate) use gram::{Gram, difference_of_products, invertible, two_product, two_sum};
+pub(crate) use gram::{Gram, Sums, invertible, sum};
 pub use isotropic::Isotropic;
 pub use linear::Linear;
 pub(crate) use linear::moved;
+pub use roughness_matrix::RoughnessMatrix;
 
 use crate::Real;
 use crate::error::Error;
@@ -77,4 +79,20 @@ pub trait Map: sealed::Sealed + Copy {
 #[inline(always)]
 fn scale<T: Real>(r11: T, r22: T) -> T {
     T::lit(r11.to_f64() * r22.to_f64() * core::f64::consts::FRAC_1_PI)
+}
+
+/// The inverse map of a surface as a triangular factor.
+#[inline(always)]
+pub(crate) fn factor<M: Map>(map: &M) -> [f64; 3] {
+    let [[r11, r12], [_, r22]] = map.inverse().map(|row| row.map(Real::to_f64));
+    [r11, r12, r22]
+}
+
+/// Mᵀt: a slope of the surface as the profile sees it.
+#[inline]
+pub(crate) fn seen_by_profile<M: Map>(map: &M, slope: <M::Scalar as Real>::Vec2) -> [f64; 2] {
+    let [r11, r12, r22] = factor(map);
+    let [x, y]: [M::Scalar; 2] = slope.into();
+    let x = x.to_f64() / r11;
+    [x, (y.to_f64() - r12 * x) / r22]
 }

@@ -2,7 +2,7 @@
 
 use crate::Real;
 use crate::error::Error;
-use crate::map::{Linear, Map, moved};
+use crate::map::{Linear, Map, RoughnessMatrix, moved};
 use crate::ndf::{Course, Ndf, SampleNdf, SampleVndf, Slopes, Vec2, Vec3};
 use crate::profile::{Profile, SampleProfile, SampleVisibleProfile};
 use crate::vector::{dot, normalized, positive_part};
@@ -49,6 +49,20 @@ impl<P, M> Microsurface<P, M> {
     #[must_use]
     pub const fn map(&self) -> &M {
         &self.map
+    }
+}
+
+impl<P, M: Map> Microsurface<P, M> {
+    /// The roughness matrix A = RᵀR of the map, R = M⁻¹, to the last bit: the surface of it has the same map.
+    ///
+    /// It is the roughness of the whole surface for the shape-invariant profiles (GGX, Beckmann), whose own width
+    /// is 1; for GTR it is what the map does to the profile.
+    ///
+    /// # Errors
+    /// Never at present: every map is held.
+    pub fn roughness_matrix(&self) -> Result<RoughnessMatrix<M::Scalar>, Error> {
+        let [[r11, r12], [_, r22]] = self.map().inverse();
+        Ok(RoughnessMatrix::of_factor([r11, r12, r22]))
     }
 }
 
@@ -269,6 +283,69 @@ fn turned_from_the_edge<T: Real>(w: [T; 3], m: [T; 3]) -> [T; 3] {
     let push = push / dot(towards, towards);
     [m[0] + push * towards[0], m[1] + push * towards[1], m[2] + push * towards[2]]
 }
+
+/// The constructors of a profile without parameters of its own, whose width is the map's.
+macro_rules! shape_invariant {
+    ($profile:ident) => {
+        impl crate::profile::ShapeInvariant for $profile {}
+
+        impl $profile {
+            /// The distribution of slope width α in every direction.
+            ///
+            /// # Errors
+            /// [`Error::Alpha`](crate::Error::Alpha) unless α is within
+            /// [`alpha_range`](crate::roughness::alpha_range).
+            #[inline]
+            pub fn isotropic<T: crate::Real>(
+                alpha: T,
+            ) -> Result<crate::Microsurface<Self, crate::Isotropic<T>>, crate::Error> {
+                Ok(crate::Microsurface::new(Self, crate::Isotropic::new(alpha)?))
+            }
+
+            /// The distribution of slope widths αx along x and αy along y.
+            ///
+            /// # Errors
+            /// [`Error::Alpha`](crate::Error::Alpha) unless both are within
+            /// [`alpha_range`](crate::roughness::alpha_range).
+            #[inline]
+            pub fn anisotropic<T: crate::Real>(
+                alpha_x: T,
+                alpha_y: T,
+            ) -> Result<crate::Microsurface<Self, crate::map::AxisAligned<T>>, crate::Error> {
+                Ok(crate::Microsurface::new(Self, crate::map::AxisAligned::new(alpha_x, alpha_y)?))
+            }
+
+            /// The distribution of slope widths α = `alpha_x` along the direction at `angle` radians from x, and
+            /// `alpha_y` across it.
+            ///
+            /// No α is squared, so every ratio of the widths is held; see
+            /// [`RoughnessMatrix::rotated`](crate::RoughnessMatrix::rotated).
+            ///
+            /// # Errors
+            /// [`Error::Alpha`](crate::Error::Alpha) unless both are within
+            /// [`alpha_range`](crate::roughness::alpha_range), [`Error::Parameter`](crate::Error::Parameter)
+            /// if the angle is not finite.
+            #[inline]
+            pub fn rotated<T: crate::Real>(
+                alpha_x: T,
+                alpha_y: T,
+                angle: T,
+            ) -> Result<crate::Microsurface<Self, crate::map::Linear<T>>, crate::Error> {
+                Ok(Self::from_roughness_matrix(crate::RoughnessMatrix::rotated(alpha_x, alpha_y, angle)?))
+            }
+
+            /// The distribution of a roughness matrix A: slope widths that differ along any two directions.
+            #[inline]
+            #[must_use]
+            pub fn from_roughness_matrix<T: crate::Real>(
+                matrix: crate::RoughnessMatrix<T>,
+            ) -> crate::Microsurface<Self, crate::map::Linear<T>> {
+                crate::Microsurface::new(Self, crate::map::Linear::from(matrix))
+            }
+        }
+    };
+}
+pub(crate) use shape_invariant;
 
 #[cfg(test)]
 mod tests {

@@ -9,13 +9,9 @@
 //!
 //! | profile | P(q, z²) | σ_P(s², z) |
 //! |---|---|---|
-//! | [`Ggx`](ggx::Ggx) | 1/(π (q + z²)²) | ½(z + √(z² + s²)) |
-//! | [`Beckmann`](beckmann::Beckmann) | exp(−q/z²)/(π z⁴) | z + ½ s e^{−ν²} ierfcx(ν), ν = z/s |
-//! | [`Gtr`](gtr::Gtr) | c (z² + q)^{γ−2}/(q + α² z²)^γ | see [`gtr`] |
-
-pub mod beckmann;
-pub mod ggx;
-pub mod gtr;
+//! | [`Ggx`](crate::Ggx) | 1/(π (q + z²)²) | ½(z + √(z² + s²)) |
+//! | [`Beckmann`](crate::Beckmann) | exp(−q/z²)/(π z⁴) | z + ½ s e^{−ν²} ierfcx(ν), ν = z/s |
+//! | [`Gtr`](crate::Gtr) | c (z² + q)^{γ−2}/(q + α² z²)^γ | see [`gtr`](crate::gtr) |
 
 use crate::Real;
 use crate::map::Map;
@@ -103,66 +99,3 @@ pub trait SampleVisibleProfile<T: Real>: Profile<T> {
         (self.sample_visible(v, s2, u), true)
     }
 }
-
-/// The constructors of a profile without parameters of its own, whose width is the map's.
-macro_rules! shape_invariant {
-    ($profile:ident) => {
-        impl crate::profile::ShapeInvariant for $profile {}
-
-        impl $profile {
-            /// The distribution of slope width α in every direction.
-            ///
-            /// # Errors
-            /// [`Error::Alpha`](crate::Error::Alpha) unless α is within
-            /// [`alpha_range`](crate::roughness::alpha_range).
-            #[inline]
-            pub fn isotropic<T: crate::Real>(
-                alpha: T,
-            ) -> Result<crate::Microsurface<Self, crate::map::Isotropic<T>>, crate::Error> {
-                Ok(crate::Microsurface::new(Self, crate::map::Isotropic::new(alpha)?))
-            }
-
-            /// The distribution of slope widths αx along x and αy along y.
-            ///
-            /// # Errors
-            /// [`Error::Alpha`](crate::Error::Alpha) unless both are within
-            /// [`alpha_range`](crate::roughness::alpha_range).
-            #[inline]
-            pub fn anisotropic<T: crate::Real>(
-                alpha_x: T,
-                alpha_y: T,
-            ) -> Result<crate::Microsurface<Self, crate::map::AxisAligned<T>>, crate::Error> {
-                Ok(crate::Microsurface::new(Self, crate::map::AxisAligned::new(alpha_x, alpha_y)?))
-            }
-
-            /// The distribution of slope widths α = `alpha_x` along the direction at `angle` radians from x, and
-            /// `alpha_y` across it.
-            ///
-            /// No α is squared, so every ratio of the widths is held; see
-            /// [`RoughnessMatrix::rotated`](crate::RoughnessMatrix::rotated).
-            ///
-            /// # Errors
-            /// [`Error::Alpha`](crate::Error::Alpha) unless both are within
-            /// [`alpha_range`](crate::roughness::alpha_range), [`Error::Parameter`](crate::Error::Parameter)
-            /// if the angle is not finite.
-            #[inline]
-            pub fn rotated<T: crate::Real>(
-                alpha_x: T,
-                alpha_y: T,
-                angle: T,
-            ) -> Result<crate::Microsurface<Self, crate::map::Linear<T>>, crate::Error> {
-                Ok(Self::from_roughness_matrix(crate::RoughnessMatrix::rotated(alpha_x, alpha_y, angle)?))
-            }
-
-            /// The distribution of a roughness matrix A: slope widths that differ along any two directions.
-            #[inline]
-            #[must_use]
-            pub fn from_roughness_matrix<T: crate::Real>(
-                matrix: crate::roughness::RoughnessMatrix<T>,
-            ) -> crate::Microsurface<Self, crate::map::Linear<T>> {
-                crate::Microsurface::new(Self, crate::map::Linear::from(matrix))
-            }
-        }
-    };
-}
-pub(crate) use shape_invariant;

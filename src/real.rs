@@ -6,7 +6,7 @@
 use core::fmt::{Debug, Display};
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use crate::elementary::kernel::Kernel;
+use crate::elementary::bits::Bits;
 
 #[cfg(not(any(feature = "std", feature = "libm")))]
 compile_error!("microsurface needs one of the features `std` (the default) or `libm`");
@@ -16,7 +16,7 @@ compile_error!("microsurface needs one of the features `std` (the default) or `l
 /// Vectors are converted to arrays where components are needed (`let [x, y, z]: [T; 3] = w.into();`),
 /// which costs nothing once compiled.
 pub trait Real:
-    Kernel
+    Bits
     + Copy
     + Debug
     + Display

@@ -7,9 +7,9 @@
 use core::f64::consts::TAU;
 
 use criterion::Criterion;
+use microsurface::filter::MeanOverParallelogram;
 use microsurface::filter::deferred::{self, Bound};
 use microsurface::filter::jacobian::{Curvature, HalfVector, Motion};
-use microsurface::filter::polygon::MeanOverParallelogram;
 use microsurface::filter::quad::Quad;
 use microsurface::filter::{Covariance, Footprint, covariance, gaussian, polygon, projected, rectangle};
 use microsurface::frame::{Frame, normal_to_slope};

@@ -6,7 +6,7 @@ use alloc::rc::Rc;
 use core::cell::RefCell;
 use core::hint::black_box;
 
-use microsurface::batch::dispatch::{Level, limit_to};
+use microsurface::batch::simd::{Level, limit_to};
 use microsurface::batch::{Directions, DirectionsMut, NdfBatch, Numbers, ReflectionBatch};
 use microsurface::bsdf::RoughConductor;
 use microsurface::fresnel::Schlick;

@@ -10,12 +10,12 @@ use microsurface::filter::ray::RayDifferential;
 use microsurface::filter::{Covariance, Footprint, deferred, jacobian};
 use microsurface::frame::Frame;
 use microsurface::fresnel::{Conductor, Dielectric, Perfect, Schlick};
-use microsurface::profile::gtr::closed::Closed;
-use microsurface::profile::gtr::components::Components;
-use microsurface::profile::gtr::mixture::Mixture;
-use microsurface::profile::gtr::nodes::{GgxNodes, Nodes};
-use microsurface::profile::gtr::spline::Spline;
-use microsurface::profile::gtr::table::GtrTable;
+use microsurface::gtr::closed::Closed;
+use microsurface::gtr::components::Components;
+use microsurface::gtr::mixture::Mixture;
+use microsurface::gtr::nodes::{GgxNodes, Nodes};
+use microsurface::gtr::spline::Spline;
+use microsurface::gtr::table::GtrTable;
 use microsurface::transform::{Transformed, tension};
 use microsurface::{AxisAligned, Beckmann, Ggx, Gtr, Isotropic, Linear, Microsurface, Real, RoughnessMatrix};
 

@@ -6,7 +6,7 @@
 use core::hint::black_box;
 use std::io::{self, Write};
 
-use microsurface::batch::dispatch::{Level, highest, limit_to};
+use microsurface::batch::simd::{Level, highest, limit_to};
 use microsurface::batch::{Directions, DirectionsMut, NdfBatch, Numbers, ReflectionBatch};
 use microsurface::bsdf::RoughConductor;
 use microsurface::elementary::{erf, erf_inv};

@@ -3,9 +3,9 @@
 use core::ops::RangeInclusive;
 use std::io::{self, Write};
 
-use microsurface::profile::gtr::spline::Spline;
-use microsurface::profile::gtr::table::GtrTable;
-use microsurface::profile::gtr::{Gtr, Masking};
+use microsurface::gtr::spline::Spline;
+use microsurface::gtr::table::GtrTable;
+use microsurface::gtr::{Gtr, Masking};
 use microsurface::{Isotropic, Microsurface, Ndf, Real};
 
 use crate::measure::{Errors, Run, both, pairs_of_times};

@@ -1,11 +1,11 @@
 //! The methods under test: each makes radiance of what is known of a pixel.
 
 use microsurface::bsdf::RoughConductor;
+use microsurface::filter::MeanOverParallelogram;
 use microsurface::filter::covariance::{
     LARGEST_KERNEL, VARIANCE_KAPLANYAN2016, VARIANCE_OF_BOX, VARIANCE_TOKUYOSHI2021,
 };
 use microsurface::filter::deferred::{self, Bound, Kernel};
-use microsurface::filter::polygon::MeanOverParallelogram;
 use microsurface::filter::{Covariance, Footprint, gaussian, projected, rectangle};
 use microsurface::fresnel::Fresnel;
 use microsurface::profile::{Profile, ShapeInvariant};

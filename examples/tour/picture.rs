@@ -1,9 +1,9 @@
 //! The pictures: which materials, in which rows and columns.
 
+use microsurface::RoughnessMatrix;
 use microsurface::bsdf::RoughConductor;
 use microsurface::fresnel::Perfect;
 use microsurface::glam::{Mat2, Vec3};
-use microsurface::roughness::RoughnessMatrix;
 use microsurface::{Beckmann, Error, Ggx, Gtr, Ndf, SampleVndf};
 
 use crate::material::Material;

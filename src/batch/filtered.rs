@@ -1,15 +1,15 @@
 //! Materials filtered over the footprint of each element.
 
 use crate::Real;
+use crate::alpha::alpha_range;
 use crate::batch::blocks::{Source, composed};
 use crate::batch::varied::Variation;
 use crate::error::Error;
 use crate::filter::{Covariance, Footprint, projected};
+use crate::ggx::Ggx;
 use crate::map::{Linear, Map};
 use crate::microsurface::Microsurface;
 use crate::profile::ShapeInvariant;
-use crate::profile::ggx::Ggx;
-use crate::roughness::alpha_range;
 
 /// A [`Footprint`] for each element, its steps by components in four slices of equal length.
 #[derive(Debug, Clone, Copy, PartialEq)]

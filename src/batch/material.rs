@@ -3,7 +3,7 @@
 use core::borrow::Borrow;
 
 use crate::batch::blocks::{Body, Maker, Sink, Source, check, each};
-use crate::batch::dispatch::{self, Kernel};
+use crate::batch::simd::{self, Kernel};
 use crate::bsdf::RoughConductor;
 use crate::ndf::{Course, Ndf};
 
@@ -110,7 +110,7 @@ where
 /// At the level in use, where there are vectors to be had.
 #[inline(always)]
 fn run(course: Course, kernel: impl Kernel) {
-    if course == Course::Branching { kernel.run() } else { dispatch::run(kernel) }
+    if course == Course::Branching { kernel.run() } else { simd::run(kernel) }
 }
 
 /// An element's own material, as it is.

@@ -66,7 +66,7 @@ impl<N: SampleVndf> Body<N, ([N::Scalar; 3], [N::Scalar; 2])> for VisibleNormal 
 /// [`Ndf`] and its sampling over many directions: on a distribution, or on a slice with one for each element.
 ///
 /// Domains and special cases are those of the method without `_batch`, element by element; a batch of visible normals is
-/// vector code for GGX and Beckmann, of which [`BeckmannTo1e6`](crate::profile::beckmann::BeckmannTo1e6) takes half the time; of
+/// vector code for GGX and Beckmann, of which [`BeckmannTo1e6`](crate::beckmann::BeckmannTo1e6) takes half the time; of
 /// a GTR mixture it is a scalar loop, no faster than the calls.
 ///
 /// # Panics

@@ -4,8 +4,8 @@ use core::borrow::Borrow;
 
 use crate::Real;
 use crate::batch::blocks::{BLOCK, Body, Maker, Source};
+use crate::beckmann::visible::{Inversion, To1e6, ToRounding, slopes_from_above};
 use crate::ndf::{Course, Slopes};
-use crate::profile::beckmann::visible::{Inversion, To1e6, ToRounding, slopes_from_above};
 use crate::real::converted;
 
 /// The normals of a block, by components.

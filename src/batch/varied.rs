@@ -1,15 +1,16 @@
 //! Materials that differ between elements by a few numbers: textures of widths, footprints of pixels.
 
 use crate::Real;
+use crate::alpha::{alpha_range, mirror_alpha, refused};
 use crate::batch::Directions;
 use crate::batch::blocks::{Body, Maker, Sink, Source, composed};
 use crate::batch::material::{Material, Materials, each_of};
 use crate::bsdf::RoughConductor;
 use crate::error::Error;
+use crate::map::RoughnessMatrix;
 use crate::map::{AxisAligned, Isotropic, Linear, Map};
 use crate::microsurface::Microsurface;
 use crate::profile::ShapeInvariant;
-use crate::roughness::{RoughnessMatrix, alpha_range, mirror_alpha};
 
 /// One material, varied by numbers of each element: the structure of arrays of a textured or filtered material.
 ///
@@ -159,7 +160,7 @@ fn check_alphas<T: Real>(alphas: &[T]) -> Result<(), Error> {
     if alphas.iter().fold(true, |all, alpha| all & valid(alpha)) {
         return Ok(());
     }
-    alphas.iter().find(|alpha| !valid(alpha)).map_or(Ok(()), |&alpha| Err(Error::alpha(alpha)))
+    alphas.iter().find(|alpha| !valid(alpha)).map_or(Ok(()), |&alpha| Err(refused(alpha)))
 }
 
 /// A width α for each element.

@@ -3,8 +3,7 @@
 use crate::Real;
 use crate::bsdf::Sample;
 use crate::bsdf::sampling::{NormalSampling, VisibleNormals};
-use crate::filter::Footprint;
-use crate::filter::polygon::{self, MeanOverParallelogram};
+use crate::filter::{Footprint, MeanOverParallelogram, polygon};
 use crate::fresnel::{Fresnel, Spectrum};
 use crate::map::Map;
 use crate::microsurface::Microsurface;

@@ -1,11 +1,11 @@
 //! Uniform directions mixed with those of sampled normals.
 
 use crate::Real;
+use crate::alpha::checked;
 use crate::bsdf::sampling::NormalSampling;
 use crate::elementary::sin_cos_of_turn;
 use crate::error::Error;
 use crate::ndf::{Course, Ndf, Slopes, Vec2, Vec3};
-use crate::roughness::checked;
 use crate::vector::{below_one, normalized};
 
 /// With probability p a direction uniform on the hemisphere, otherwise one reflected by a normal of `S`.

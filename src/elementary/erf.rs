@@ -2,7 +2,7 @@
 
 use super::erfcx::erfcx_of_positive;
 use super::exp_neg_square;
-use super::kernel::polynomial;
+use super::polynomial::polynomial;
 use crate::real::Real;
 
 /// The error function erf x = (2/√π)·∫₀ˣ e^(−t²)dt.

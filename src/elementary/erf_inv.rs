@@ -3,9 +3,9 @@
 //! In the middle x = p·R(−ln(1 − p²)); in the tails, with q = erfc x the smaller side, x = R(√(−ln q)). The arithmetic of
 //! the intervals is the same, so that only coefficients are selected, not results.
 
-use super::kernel::polynomial_of;
 use super::ln;
 use super::log::{ln_normal, ln_normal_wide};
+use super::polynomial::polynomial_of;
 use crate::real::Real;
 
 /// The x ≥ 0 with erf x = `p` and erfc x = `q`, both given, 0 ≤ p and q ≤ 1; the coefficients are those of `T`, the

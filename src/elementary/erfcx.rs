@@ -1,7 +1,7 @@
 //! Scaled complementary error functions.
 
 use super::exp::{exp_of_sum, square};
-use super::kernel::polynomial;
+use super::polynomial::polynomial;
 use crate::real::Real;
 
 /// erfcx x for x ≥ 0.

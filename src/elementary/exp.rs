@@ -2,7 +2,8 @@
 //!
 //! eˣ = 2ⁿ·eʳ with n = round(x/ln 2) and r = x − n·ln 2, |r| ≤ ½ ln 2; eʳ = 1 + r + r²·P(r).
 
-use super::kernel::{Kernel, polynomial};
+use super::bits::Bits;
+use super::polynomial::polynomial;
 use crate::real::Real;
 
 /// The integer nearest to x, for |x| < 2^(digits−2); ties to even.

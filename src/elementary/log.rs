@@ -3,9 +3,10 @@
 //! x = m·2ᵏ with √½ ≤ m < √2, f = m − 1, s = f/(2 + f): ln m = ln((1+s)/(1−s)) = f − s·(f − s²·P(s²)), and the
 //! first f is split off half its square so that little is lost to rounding (fdlibm's arrangement).
 
+use super::bits::Bits;
 use super::exp::{exp_of_normal_range, exp_of_sum, round};
 use super::exp_wide;
-use super::kernel::{Kernel, polynomial};
+use super::polynomial::polynomial;
 use crate::real::Real;
 
 /// ⅔ as a sum whose first term has half the digits of an f64.

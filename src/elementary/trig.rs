@@ -1,6 +1,6 @@
 //! Sine and cosine of angles given in turns, and the angle of a point in radians.
 
-use super::kernel::polynomial;
+use super::polynomial::polynomial;
 use crate::real::Real;
 
 /// (sin 2πu, cos 2πu), the angle in turns.

@@ -1,7 +1,15 @@
 //! What a half vector covers within one pixel, to first order.
 
+pub mod covariance;
+mod half_vector;
+pub mod jacobian;
+mod motion;
+pub mod quad;
+pub mod ray;
+
+pub use covariance::Covariance;
+
 use crate::Real;
-use crate::filter::covariance::Covariance;
 
 /// The steps of the half vector from one pixel to the next, along u and along v: the rows of Δ.
 ///

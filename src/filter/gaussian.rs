@@ -29,14 +29,14 @@
 //! dark across it by the same.
 
 use crate::Real;
+use crate::beckmann::Beckmann;
 use crate::elementary::exp;
 use crate::error::Error;
-use crate::filter::covariance::{Covariance, Sums, factor, seen_by_profile};
-use crate::map::{Gram, Linear, Map};
+use crate::filter::Covariance;
+use crate::ggx::Ggx;
+use crate::map::{Gram, Linear, Map, Sums, factor, seen_by_profile};
 use crate::microsurface::Microsurface;
 use crate::ndf::{Ndf, SampleNdf, SampleVndf, Vec2, Vec3};
-use crate::profile::beckmann::Beckmann;
-use crate::profile::ggx::Ggx;
 use crate::vector::{at_least_cosine, below_one, positive_part};
 
 /// GGX(1) as a GGX of this squared width, whose weight is its inverse, …

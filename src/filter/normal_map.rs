@@ -35,9 +35,9 @@ mod toksvig;
 use core::ops::Add;
 
 use crate::Real;
+use crate::elementary::exact::difference_of_products;
 use crate::filter::Covariance;
 use crate::frame::{Frame, normal_to_slope, slope_to_normal};
-use crate::map::difference_of_products;
 
 pub use toksvig::{alpha_toksvig2005, exponent_toksvig2005, variance_toksvig2005};
 

@@ -28,15 +28,15 @@
 //! Eqs. 3–7; Tokuyoshi 2017, "Error reduction and simplification for shading anti-aliasing", §3.2.
 
 use crate::Real;
+use crate::elementary::exact::difference_of_products;
 use crate::error::Error;
+use crate::filter::covariance::checked_variances;
 use crate::filter::deferred::Kernel;
 use crate::filter::{Covariance, Footprint};
-use crate::map::{AxisAligned, Gram, Isotropic, Linear, Map, difference_of_products};
+use crate::ggx::Ggx;
+use crate::map::{AxisAligned, Gram, Isotropic, Linear, Map, factor};
 use crate::microsurface::Microsurface;
 use crate::profile::ShapeInvariant;
-use crate::profile::ggx::Ggx;
-
-use super::covariance::factor;
 
 /// The surface convolved with the footprint in projected space: A' = (((A⁻¹ − I)⁻¹ + 2Σ)⁻¹ + I)⁻¹, Σ = σ²ΔᵀΔ.
 ///
@@ -201,7 +201,7 @@ pub fn filtered_isotropic<T: Real>(
     surface: &Microsurface<Ggx, Isotropic<T>>,
     variance: T,
 ) -> Result<Microsurface<Ggx, Isotropic<T>>, Error> {
-    let kernel = T::TWO.to_f64() * checked_variance([variance, variance])?[0];
+    let kernel = T::TWO.to_f64() * checked_variances([variance, variance])?[0];
     let alpha = T::lit(convolved_along_axis(surface.map().alpha().to_f64(), kernel));
     Ok(Microsurface::new(*surface.profile(), Isotropic::new(alpha)?))
 }
@@ -224,7 +224,7 @@ pub fn filtered_axis_aligned<T: Real>(
     surface: &Microsurface<Ggx, AxisAligned<T>>,
     variances: [T; 2],
 ) -> Result<Microsurface<Ggx, AxisAligned<T>>, Error> {
-    let [x, y] = checked_variance(variances)?;
+    let [x, y] = checked_variances(variances)?;
     along_axes(surface, [2.0 * x, 2.0 * y])
 }
 
@@ -307,14 +307,4 @@ fn along_axes<T: Real>(
     let [x, y] = surface.map().alphas().map(T::to_f64);
     let alphas = [convolved_along_axis(x, kernels[0]), convolved_along_axis(y, kernels[1])].map(T::lit);
     Ok(Microsurface::new(*surface.profile(), AxisAligned::new(alphas[0], alphas[1])?))
-}
-
-/// Variances along the axes as f64, finite and not negative.
-#[inline]
-pub(super) fn checked_variance<T: Real>(variances: [T; 2]) -> Result<[f64; 2], Error> {
-    let [x, y] = variances.map(T::to_f64);
-    if x >= 0.0 && y >= 0.0 && x.is_finite() && y.is_finite() {
-        return Ok([x, y]);
-    }
-    Err(Error::Covariance { xx: x, xy: 0.0, yy: y })
 }

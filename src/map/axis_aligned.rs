@@ -1,9 +1,9 @@
 //! A width along each axis.
 
 use crate::Real;
+use crate::alpha::checked;
 use crate::error::Error;
 use crate::map::{Map, scale};
-use crate::roughness::checked;
 
 /// M = diag(1/αx, 1/αy): two numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]

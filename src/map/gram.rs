@@ -1,6 +1,8 @@
 //! Positive definite matrices without cancellation, for constructors.
 
 use crate::Real;
+use crate::alpha::alpha_range;
+use crate::elementary::exact::difference_of_products;
 use crate::error::Error;
 
 /// A symmetric positive definite matrix RᵀR with |det R|, the root of its determinant, known more precisely
@@ -38,7 +40,7 @@ impl Gram {
     /// Both principal α are finite and within the range of the scalar. False for NaN.
     #[inline]
     pub(crate) fn in_range<T: Real>(&self) -> bool {
-        let (smallest, largest) = crate::roughness::alpha_range::<T>();
+        let (smallest, largest) = alpha_range::<T>();
         // The trace is between the larger α² and twice that: nearly always it tells without a root.
         let (small, large) = (smallest.to_f64(), largest.to_f64());
         let (trace, least) = (self.xx + self.yy, small * small);
@@ -53,6 +55,53 @@ impl Gram {
     }
 }
 
+/// Sums a RᵀR + b CᵀC of two Gram matrices of triangular factors.
+///
+/// With adj(R) the adjugate, det = a² (det R)² + a b (|adj(R)ᵀc₁|² + |adj(R)ᵀc₂|²) + b² (det C)², c₁ and c₂ the rows of C:
+/// every term is positive.
+#[derive(Clone, Copy)]
+pub(crate) struct Sums {
+    /// xx, xy, yy.
+    of_r: [f64; 3],
+    of_c: [f64; 3],
+    /// Coefficients of a², a b, b².
+    determinant: [f64; 3],
+}
+
+impl Sums {
+    #[inline(always)]
+    pub(crate) fn new([r11, r12, r22]: [f64; 3], [c11, c12, c22]: [f64; 3]) -> Self {
+        let (a, b, c) = (r22 * c11, r11 * c12 - r12 * c11, r11 * c22);
+        let (det_r, det_c) = (r11 * r22, c11 * c22);
+        Self {
+            of_r: [r11 * r11, r11 * r12, r12 * r12 + r22 * r22],
+            of_c: [c11 * c11, c11 * c12, c12 * c12 + c22 * c22],
+            determinant: [det_r * det_r, a * a + b * b + c * c, det_c * det_c],
+        }
+    }
+
+    /// Trace and determinant of b (RᵀR)⁻¹CᵀC: the sum and the product of its eigenvalues.
+    #[inline(always)]
+    pub(crate) fn trace_and_determinant(&self, b: f64) -> [f64; 2] {
+        let [det_r, mixed, det_c] = self.determinant;
+        [b * (mixed / det_r), b * (b * (det_c / det_r))]
+    }
+
+    /// a RᵀR + b CᵀC.
+    #[inline(always)]
+    pub(crate) fn of(&self, a: f64, b: f64) -> Gram {
+        let [xx, xy, yy] = core::array::from_fn(|i| a * self.of_r[i] + b * self.of_c[i]);
+        let [det_r, mixed, det_c] = self.determinant;
+        Gram { xx, xy, yy, root: Real::sqrt(a * a * det_r + a * b * mixed + b * b * det_c) }
+    }
+}
+
+/// RᵀR + scale·CᵀC, of triangular factors.
+#[inline(always)]
+pub(crate) fn sum(r: [f64; 3], c: [f64; 3], scale: f64) -> Gram {
+    Sums::new(r, c).of(1.0, scale)
+}
+
 /// The determinant of the matrix of these columns.
 ///
 /// # Errors
@@ -62,34 +111,4 @@ pub(crate) fn invertible<T: Real>([[a, b], [c, d]]: [[f64; 2]; 2]) -> Result<f64
     let root = determinant.abs();
     let gram = Gram { xx: a * a + b * b, xy: a * c + b * d, yy: c * c + d * d, root };
     if gram.in_range::<T>() { Ok(determinant) } else { Err(Error::Map { determinant }) }
-}
-
-/// a·b − c·d to about an ulp of the result, by exact products (Dekker 1971; Kahan's algorithm).
-#[inline(always)]
-pub(crate) fn difference_of_products(a: f64, b: f64, c: f64, d: f64) -> f64 {
-    let (p, p_error) = two_product(a, b);
-    let (q, q_error) = two_product(c, d);
-    let (difference, error) = two_sum(p, -q);
-    difference + (error + (p_error - q_error))
-}
-
-/// a + b as a rounded sum and its exact error (Knuth).
-#[inline(always)]
-pub(crate) fn two_sum(a: f64, b: f64) -> (f64, f64) {
-    let sum = a + b;
-    let of_b = sum - a;
-    (sum, (a - (sum - of_b)) + (b - of_b))
-}
-
-/// a·b as a rounded product and its exact error.
-#[inline(always)]
-pub(crate) fn two_product(a: f64, b: f64) -> (f64, f64) {
-    let halves = |x: f64| {
-        let t = 134217729.0 * x; // 2²⁷ + 1
-        let high = t - (t - x);
-        (high, x - high)
-    };
-    let product = a * b;
-    let ((a1, a2), (b1, b2)) = (halves(a), halves(b));
-    (product, ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2)
 }

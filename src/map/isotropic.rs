@@ -1,10 +1,10 @@
 //! The same width in every direction.
 
 use crate::Real;
+use crate::alpha::checked;
 use crate::error::Error;
 use crate::map::axis_aligned::AxisAligned;
 use crate::map::{Map, scale};
-use crate::roughness::checked;
 
 /// M = I/α: one number. Nothing directional is computed.
 #[derive(Debug, Clone, Copy, PartialEq)]

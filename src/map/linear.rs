@@ -1,10 +1,11 @@
 //! Any invertible map.
 
 use crate::Real;
+use crate::elementary::exact::difference_of_products;
 use crate::error::Error;
-use crate::map::gram::{Gram, difference_of_products};
+use crate::map::gram::Gram;
+use crate::map::roughness_matrix::RoughnessMatrix;
 use crate::map::{Map, scale};
-use crate::roughness::RoughnessMatrix;
 
 /// Any invertible map, stored as the upper triangular R = M⁻¹ that has the same RᵀR.
 ///

@@ -12,9 +12,10 @@
 //! References: Atanasov, Koylazov, Dimov and Wilkie 2022, §5.1.
 
 use crate::Real;
+use crate::elementary::exact::difference_of_products;
 use crate::error::Error;
 use crate::frame::Frame;
-use crate::map::{difference_of_products, invertible};
+use crate::map::invertible;
 use crate::vector::dot;
 
 /// A triangle at rest and deformed, with its texture coordinates.

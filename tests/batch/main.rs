@@ -10,15 +10,15 @@ mod varied;
 use core::panic::AssertUnwindSafe;
 use std::panic::catch_unwind;
 
-use microsurface::batch::dispatch::{Level, highest, level, limit_to};
+use microsurface::batch::simd::{Level, highest, level, limit_to};
 use microsurface::batch::{
     Directions, DirectionsMut, Materials, NdfBatch, Numbers, ReflectionBatch, Samples,
 };
+use microsurface::beckmann::BeckmannTo1e6;
 use microsurface::bsdf::{AllNormals, NormalSampling, RoughConductor, UniformMixture, VisibleNormals};
 use microsurface::fresnel::{Conductor, Dielectric, Fresnel, Perfect, Schlick, Spectrum};
 use microsurface::glam::Vec3;
 use microsurface::ndf::Vec3 as Vec3Of;
-use microsurface::profile::beckmann::BeckmannTo1e6;
 use microsurface::transform::Transformed;
 use microsurface::{Beckmann, Ggx, Gtr, Ndf, Real, RoughnessMatrix, SampleNdf, SampleVndf};
 

@@ -7,7 +7,7 @@ mod nodes;
 pub(crate) mod search;
 
 use microsurface::fresnel::{Conductor, Dielectric, Fresnel, Spectrum};
-use microsurface::profile::gtr::Density;
+use microsurface::gtr::Density;
 use microsurface::{Beckmann, Ggx, Gtr, Ndf, Real, glam};
 use rand::Rng;
 

@@ -1,10 +1,10 @@
 //! The published approximations that the crate offers beside the exact functions are what their documentation says:
 //! Walter's Beckmann mask, the spline mask of GTR, Beckmann with the quicker sampling.
 
+use microsurface::beckmann::BeckmannTo1e6;
 use microsurface::filter::{Footprint, polygon};
-use microsurface::profile::beckmann::BeckmannTo1e6;
-use microsurface::profile::gtr::Density;
-use microsurface::profile::gtr::spline::Spline;
+use microsurface::gtr::Density;
+use microsurface::gtr::spline::Spline;
 use microsurface::{
     Beckmann, Gtr, Isotropic, Microsurface, Ndf, Real, RoughnessMatrix, SampleNdf, SampleVndf, glam::DVec3,
 };

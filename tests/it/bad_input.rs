@@ -5,9 +5,9 @@ mod evaluation;
 use microsurface::bsdf::{AllNormals, UniformMixture};
 use microsurface::fresnel::{Conductor, Dielectric, Schlick};
 use microsurface::glam::{DMat2, DVec3};
-use microsurface::profile::gtr::Density;
-use microsurface::profile::gtr::components::Components;
-use microsurface::profile::gtr::table::GtrTable;
+use microsurface::gtr::Density;
+use microsurface::gtr::components::Components;
+use microsurface::gtr::table::GtrTable;
 use microsurface::roughness::{
     alpha_burley2012, alpha_dimov2015, alpha_pbrt4, alpha_range, alpha_walter2007, alphas_burley2012,
     alphas_kulla2017, alphas_openpbr, checked, clamped, mirror_alpha,

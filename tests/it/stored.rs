@@ -1,13 +1,13 @@
 //! Serialised surfaces: what comes back is the same bits, and what is read is checked.
 #![cfg(feature = "serde")]
 
+use microsurface::beckmann::BeckmannTo1e6;
 use microsurface::bsdf::{AllNormals, RoughConductor, UniformMixture, VisibleNormals};
 use microsurface::fresnel::{Conductor, Dielectric, Schlick};
 use microsurface::glam::DMat2;
-use microsurface::profile::beckmann::BeckmannTo1e6;
-use microsurface::profile::gtr::closed::Closed;
-use microsurface::profile::gtr::mixture::Mixture;
-use microsurface::profile::gtr::spline::Spline;
+use microsurface::gtr::closed::Closed;
+use microsurface::gtr::mixture::Mixture;
+use microsurface::gtr::spline::Spline;
 use microsurface::{AxisAligned, Beckmann, Ggx, Gtr, Isotropic, Linear, Microsurface, RoughnessMatrix};
 use serde::Serialize;
 use serde::de::DeserializeOwned;

@@ -4,10 +4,10 @@
 use core::fmt;
 use std::rc::Rc;
 
+use microsurface::beckmann::BeckmannTo1e6;
 use microsurface::filter::{Covariance, gaussian};
 use microsurface::map::{AxisAligned, Isotropic, Linear, Map};
 use microsurface::ndf::{Ndf, SampleNdf, SampleVndf, Vec2, Vec3};
-use microsurface::profile::beckmann::BeckmannTo1e6;
 use microsurface::profile::{SampleProfile, SampleVisibleProfile};
 use microsurface::transform::Transformed;
 use microsurface::{Beckmann, Error, Ggx, Gtr, Microsurface, Real, RoughnessMatrix};

@@ -1,4 +1,4 @@
-"""Coefficients of src/profile/beckmann/visible.rs, whose text defines every symbol used here.
+"""Coefficients of src/beckmann/visible.rs, whose text defines every symbol used here.
 
 python tests/reference/beckmann_visible_guess.py     (mpmath, numpy, scipy; about a minute)
 

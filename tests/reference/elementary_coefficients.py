@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Computes the coefficient tables of src/elementary/kernel.rs and prints each with its attained error.
+"""Computes the coefficient tables of src/elementary/coefficients/ and prints each with its attained error.
 
 Every table is a minimax fit by Remez' exchange in 200-bit arithmetic (mpmath), on a grid of Chebyshev points
 fine enough that the error between its points does not matter, weighted so that the *relative* error of the

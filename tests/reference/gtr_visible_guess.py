@@ -1,4 +1,4 @@
-"""Coefficients of src/profile/gtr/visible.rs and visible/aside.rs, whose texts define every symbol used here.
+"""Coefficients of src/gtr/visible.rs and visible/aside.rs, whose texts define every symbol used here.
 
 python tests/reference/gtr_visible_guess.py     (numpy, scipy; a few seconds)
 

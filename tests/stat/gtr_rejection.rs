@@ -3,7 +3,7 @@
 //! The rejection samplers are written here. They are exact as well, but use up an unpredictable part of the points:
 //! evenly spread points come out as a random part of themselves.
 
-use microsurface::profile::gtr::components::Components;
+use microsurface::gtr::components::Components;
 use microsurface::{Ggx, Gtr};
 
 use crate::points::{LowDiscrepancy, Points, Random};

@@ -1,6 +1,6 @@
 //! Visible normals of GTR: `sample_vndf` against `vndf`, for every way to make a surface that has them.
 
-use microsurface::profile::gtr::table::GtrTable;
+use microsurface::gtr::table::GtrTable;
 use microsurface::{Gtr, Real};
 
 use crate::chart::{Chart, Mixed};

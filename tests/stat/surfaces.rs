@@ -1,9 +1,9 @@
 //! The surfaces of the crate behind one interface in f64, and the maps they are seen through, as the test has them.
 
+use microsurface::RoughnessMatrix;
 use microsurface::bsdf::{AllNormals, NormalSampling, RoughConductor, UniformMixture};
 use microsurface::fresnel::{Perfect, Spectrum};
 use microsurface::profile::{SampleProfile, SampleVisibleProfile};
-use microsurface::roughness::RoughnessMatrix;
 use microsurface::{AxisAligned, Isotropic, Linear, Microsurface, Ndf, Real, SampleNdf, SampleVndf};
 
 use crate::chart::Inverse;

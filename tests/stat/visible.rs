@@ -1,6 +1,6 @@
 //! Visible normals: `sample_vndf` against `vndf`, above and below the horizon.
 
-use microsurface::profile::beckmann::BeckmannTo1e6;
+use microsurface::beckmann::BeckmannTo1e6;
 use microsurface::profile::{SampleProfile, SampleVisibleProfile};
 use microsurface::{Beckmann, Ggx, Real};
 

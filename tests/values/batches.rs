@@ -4,9 +4,9 @@ use microsurface::batch::{
     self, AlphaPairs, Alphas, Directions, DirectionsMut, Filtered, FilteredProjected, Footprints, NdfBatch,
     Numbers, ReflectionBatch, RoughnessMatrices, Samples, Varied,
 };
+use microsurface::beckmann::BeckmannTo1e6;
 use microsurface::bsdf::{AllNormals, RoughConductor, UniformMixture};
 use microsurface::fresnel::{Schlick, Spectrum};
-use microsurface::profile::beckmann::BeckmannTo1e6;
 use microsurface::{Beckmann, Ggx, Gtr, Real};
 
 use crate::arguments::Random;

@@ -1,10 +1,10 @@
 //! Distributions: every profile under every map, wrappers and mixtures.
 
+use microsurface::beckmann::BeckmannTo1e6;
 use microsurface::filter::{Covariance, gaussian};
-use microsurface::profile::beckmann::BeckmannTo1e6;
-use microsurface::profile::gtr::components::Components;
-use microsurface::profile::gtr::table::GtrTable;
-use microsurface::profile::gtr::{Density, Masking};
+use microsurface::gtr::components::Components;
+use microsurface::gtr::table::GtrTable;
+use microsurface::gtr::{Density, Masking};
 use microsurface::transform::Transformed;
 use microsurface::{
     Beckmann, Ggx, Gtr, Isotropic, Microsurface, Real, RoughnessMatrix, SampleNdf, SampleVndf,

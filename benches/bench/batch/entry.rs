@@ -5,12 +5,12 @@ use core::cell::RefCell;
 use core::hint::black_box;
 
 use criterion::Criterion;
-use microsurface::batch::dispatch::{Level, highest, limit_to};
+use microsurface::batch::simd::{Level, highest, limit_to};
 use microsurface::batch::{self, DirectionsMut, NdfBatch, Numbers, ReflectionBatch, Samples};
+use microsurface::beckmann::BeckmannTo1e6;
 use microsurface::bsdf::RoughConductor;
 use microsurface::elementary::{erf, erf_inv};
 use microsurface::fresnel::{Schlick, Spectrum};
-use microsurface::profile::beckmann::BeckmannTo1e6;
 use microsurface::{Beckmann, Ggx, Gtr, Ndf, Real, SampleVndf};
 
 use super::{

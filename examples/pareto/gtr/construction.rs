@@ -3,8 +3,8 @@
 use core::hint::black_box;
 use std::io::{self, Write};
 
-use microsurface::profile::gtr::components::Components;
-use microsurface::profile::gtr::table::GtrTable;
+use microsurface::gtr::components::Components;
+use microsurface::gtr::table::GtrTable;
 use microsurface::{Gtr, Real};
 
 use crate::measure::{Run, times};

@@ -1,8 +1,8 @@
 //! A spline over γ of ln Λ instead of G1: what the papers' interpolation could have been without overshoot.
 
 use microsurface::elementary::{exp, ln};
-use microsurface::profile::gtr::Gtr;
-use microsurface::profile::gtr::closed::Closed;
+use microsurface::gtr::Gtr;
+use microsurface::gtr::closed::Closed;
 use microsurface::{Isotropic, Microsurface, Ndf, Real};
 
 type Surface<T, const G: u8> = Microsurface<Gtr<T, Closed<T, G>>, Isotropic<T>>;

@@ -5,9 +5,9 @@
 
 use std::io::{self, Write};
 
+use microsurface::beckmann::BeckmannTo1e6;
 use microsurface::elementary::{erf, erf_inv};
 use microsurface::profile::SampleVisibleProfile;
-use microsurface::profile::beckmann::BeckmannTo1e6;
 use microsurface::{Beckmann, Isotropic, Microsurface, Ndf, Real, SampleNdf, SampleVndf};
 
 use super::{ALL, Input, Samplers, VISIBLE, alphas, extreme};

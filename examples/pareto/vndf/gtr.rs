@@ -6,8 +6,8 @@
 
 use std::io::{self, Write};
 
+use microsurface::gtr::Gtr;
 use microsurface::profile::SampleVisibleProfile;
-use microsurface::profile::gtr::Gtr;
 use microsurface::{Isotropic, Microsurface, Ndf, Real, SampleVndf};
 
 use super::{Input, Samplers, VISIBLE, alphas, usual};

@@ -1,8 +1,8 @@
 //! The spread of normals by the length of their average.
 
 use crate::Real;
+use crate::alpha::checked;
 use crate::error::Error;
-use crate::roughness::checked;
 
 /// The variance of slopes in each direction by the length of an average N of unit normals: (1 − |N|)/|N|.
 ///

@@ -1,9 +1,9 @@
 //! The masks of GTR by few nodes, their tables, and the components, against 50-digit values and each other.
 
 use microsurface::glam::DVec3;
-use microsurface::profile::gtr::Density;
-use microsurface::profile::gtr::components::Components;
-use microsurface::profile::gtr::table::GtrTable;
+use microsurface::gtr::Density;
+use microsurface::gtr::components::Components;
+use microsurface::gtr::table::GtrTable;
 use microsurface::{Gtr, Ndf, Real, SampleVndf};
 
 use super::{MASKING_GTR, number, rows, vector};
@@ -19,7 +19,7 @@ const fn bound(nodes: usize, alpha: f64, g1: f64) -> Bound {
     Bound { nodes, alpha, g1 }
 }
 
-/// What `profile::gtr::nodes` states.
+/// What `gtr::nodes` states.
 const BOUNDS: &[Bound] = &[
     bound(4, 1e-3, 1.1e-3),
     bound(4, 0.01, 3.2e-4),
@@ -275,7 +275,7 @@ fn below_the_horizon<const N: usize>(smallest: f64, gammas: core::ops::Range<f64
     worst
 }
 
-/// The table that `profile::gtr::nodes` states for σ and Λ where little is seen.
+/// The table that `gtr::nodes` states for σ and Λ where little is seen.
 #[test]
 fn light_tails_below_the_horizon() {
     for (smallest, gammas, bound) in [

@@ -2,8 +2,8 @@
 
 use microsurface::bsdf::RoughConductor;
 use microsurface::filter::Footprint;
-use microsurface::filter::polygon::{self, MeanOverParallelogram};
 use microsurface::filter::rectangle;
+use microsurface::filter::{MeanOverParallelogram, polygon};
 use microsurface::fresnel::Schlick;
 use microsurface::glam::{DVec2, Vec2};
 use microsurface::map::{Isotropic, Map};

@@ -1,7 +1,7 @@
 //! Densities, areas and masks, over widths from 1e-6 to 1e3, their ratios up to 1e3, and all
 //! directions.
 
-use microsurface::profile::gtr::Density;
+use microsurface::gtr::Density;
 use microsurface::{Beckmann, Ggx, Gtr, Ndf, Real};
 
 use super::climb::{Effort, Worst, worst};

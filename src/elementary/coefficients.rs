@@ -1,0 +1,4 @@
+//! The coefficient tables of the elementary functions, a file for each scalar.
+
+mod double;
+mod single;
