@@ -1,17 +1,19 @@
 //! Beckmann: Gaussian slopes.
 
 mod to_1e6;
-pub(crate) mod visible;
+mod visible;
 
 pub use to_1e6::BeckmannTo1e6;
 
-use self::visible::{Inversion, ToRounding};
+use self::visible::{Inversion, ToRounding, VisibleSlopes};
 use crate::Real;
 use crate::elementary::{exp_normal, exp_normal_wide, exp_wide, ierfcx, ierfcx_near, ln_1p, sin_cos_of_turn};
 use crate::map::Map;
 use crate::microsurface::Microsurface;
 use crate::microsurface::shape_invariant;
-use crate::ndf::{Course, Slopes, Vec3};
+use crate::ndf::Vec3;
+use crate::ndf::staged::Forms;
+use crate::profile::staged::StagedProfile;
 use crate::profile::{Profile, SampleProfile, SampleVisibleProfile};
 use crate::real::converted;
 use crate::vector::below_one;
@@ -118,8 +120,6 @@ impl<T: Real> SampleProfile<T> for Beckmann {
 }
 
 impl<T: Real> SampleVisibleProfile<T> for Beckmann {
-    const COURSE: Course = Course::Solving;
-
     /// The slope along the view by inversion of its distribution from u.x, the slope across it a Gaussian from
     /// u.y; monotone in both. A number below ε/4 counts as ε/4, so that both slopes are finite at 0.
     ///
@@ -128,10 +128,22 @@ impl<T: Real> SampleVisibleProfile<T> for Beckmann {
     fn sample_visible(&self, v: [T; 3], s2: T, u: [T; 2]) -> [T; 3] {
         sample::<ToRounding, T>(v, s2, u)
     }
+}
+
+impl Forms for Beckmann {}
+
+impl<T: Real> StagedProfile<T> for Beckmann {
+    const STRAIGHT: bool = true;
+    type Solver = VisibleSlopes<ToRounding, T>;
 
     #[inline(always)]
-    fn usual_visible_sample(&self, v: [T; 3], s2: T, u: [T; 2], slopes: Slopes<'_, T>) -> ([T; 3], bool) {
-        usual_sample::<ToRounding, T>(v, s2, u, slopes)
+    fn ask(&self, v: [T; 3], s2: T, u: [T; 2]) -> (T::Wide, [T; 2]) {
+        (cotangent::<ToRounding, T>(v[2], s2.sqrt()), u)
+    }
+
+    #[inline(always)]
+    fn normal(&self, v: [T; 3], s2: T, u: [T; 2], slopes: [T; 2]) -> ([T; 3], bool) {
+        facet_from_above(v, s2, u, slopes)
     }
 }
 
@@ -142,25 +154,10 @@ fn sample<I: Inversion<T>, T: Real>(v: [T; 3], s2: T, u: [T; 2]) -> [T; 3] {
     facet(v, s, u, visible::slopes::<I, T>(cotangent::<I, T>(v[2], s), u))
 }
 
-/// See [`SampleVisibleProfile::usual_visible_sample`]: from above.
+/// The normal with these slopes, and whether the view is from above: the common path.
 #[inline(always)]
-fn usual_sample<I: Inversion<T>, T: Real>(
-    v: [T; 3],
-    s2: T,
-    u: [T; 2],
-    slopes: Slopes<'_, T>,
-) -> ([T; 3], bool) {
-    let s = s2.sqrt();
-    let nu = cotangent::<I, T>(v[2], s);
-    let slopes = match slopes {
-        Slopes::Solved => visible::slopes::<I, T>(nu, u),
-        Slopes::Asked(equation) => {
-            *equation = (converted(nu), u);
-            u
-        }
-        Slopes::Found(slopes) => slopes,
-    };
-    (facet(v, s, u, slopes), v[2] >= T::ZERO)
+fn facet_from_above<T: Real>(v: [T; 3], s2: T, u: [T; 2], slopes: [T; 2]) -> ([T; 3], bool) {
+    (facet(v, s2.sqrt(), u, slopes), v[2] >= T::ZERO)
 }
 
 /// ν of a view with this height and length of the horizontal part.

@@ -9,6 +9,7 @@ mod sampling;
 
 pub use conductor::RoughConductor;
 pub use mixture::UniformMixture;
+pub(crate) use sampling::StagedSampling;
 pub use sampling::{AllNormals, NormalSampling, VisibleNormals};
 
 use crate::Real;

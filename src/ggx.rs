@@ -4,7 +4,9 @@ use crate::Real;
 use crate::elementary::sin_cos_of_turn;
 use crate::map::Map;
 use crate::microsurface::shape_invariant;
-use crate::ndf::{Slopes, cosine_scale};
+use crate::ndf::cosine_scale;
+use crate::ndf::staged::Forms;
+use crate::profile::staged::StagedProfile;
 use crate::profile::{Profile, SampleProfile, SampleVisibleProfile};
 use crate::vector::below_one;
 
@@ -102,10 +104,20 @@ impl<T: Real> SampleVisibleProfile<T> for Ggx {
         let larger = (v[2] * v[2] + s2).sqrt() + v[2].abs();
         on_cap(v, s2, u, if v[2] < T::ZERO { s2 / larger } else { larger })
     }
+}
 
-    /// From above.
+impl Forms for Ggx {}
+
+impl<T: Real> StagedProfile<T> for Ggx {
+    const STRAIGHT: bool = true;
+    type Solver = ();
+
     #[inline(always)]
-    fn usual_visible_sample(&self, v: [T; 3], s2: T, u: [T; 2], _: Slopes<'_, T>) -> ([T; 3], bool) {
+    fn ask(&self, _: [T; 3], _: T, _: [T; 2]) {}
+
+    /// The common path is a view from above.
+    #[inline(always)]
+    fn normal(&self, v: [T; 3], s2: T, u: [T; 2], (): ()) -> ([T; 3], bool) {
         let p = (v[2] * v[2] + s2).sqrt() + v[2];
         (on_cap(v, s2, u, p), v[2] >= T::ZERO)
     }

@@ -42,7 +42,8 @@ use crate::error::Error;
 use crate::gtr::components::Components;
 use crate::map::{Isotropic, Map};
 use crate::microsurface::Microsurface;
-use crate::ndf::Course;
+use crate::ndf::staged::Forms;
+use crate::profile::staged::StagedProfile;
 use crate::profile::{Profile, SampleProfile, SampleVisibleProfile};
 use crate::vector::below_one;
 
@@ -117,7 +118,7 @@ impl<T: Real, K: Masking<T>> Gtr<T, K> {
 }
 
 /// How the projected area of a GTR is computed.
-pub trait Masking<T: Real>: Copy {
+pub trait Masking<T: Real>: Forms {
     /// The mask for the width α, checked by the caller, and the exponent γ.
     ///
     /// # Errors
@@ -135,19 +136,6 @@ pub trait Masking<T: Real>: Copy {
 
     /// z Λ = σ_P(s², −z) for z ≥ 0, without cancellation.
     fn sigma_backfacing(&self, s2: T, z: T) -> T;
-
-    /// See [`Ndf::form`](crate::Ndf::form).
-    #[inline(always)]
-    fn form(&self) -> usize {
-        0
-    }
-
-    /// See [`Ndf::with_form`](crate::Ndf::with_form).
-    #[inline(always)]
-    #[must_use]
-    fn with_form(self, _form: usize) -> Self {
-        self
-    }
 }
 
 impl<T: Real, K: Masking<T>> Profile<T> for Gtr<T, K> {
@@ -167,7 +155,9 @@ impl<T: Real, K: Masking<T>> Profile<T> for Gtr<T, K> {
     fn sigma_backfacing(&self, s2: T, z: T) -> T {
         self.masking.sigma_backfacing(s2, z)
     }
+}
 
+impl<T: Real, K: Forms> Forms for Gtr<T, K> {
     #[inline(always)]
     fn form(&self) -> usize {
         self.masking.form()
@@ -198,12 +188,23 @@ pub trait VisibleMasking<T: Real>: Masking<T> {
 }
 
 impl<T: Real, K: VisibleMasking<T>> SampleVisibleProfile<T> for Gtr<T, K> {
-    /// A component is chosen first.
-    const COURSE: Course = Course::Branching;
-
     #[inline(always)]
     fn sample_visible(&self, v: [T; 3], _: T, u: [T; 2]) -> [T; 3] {
         self.masking.sample_visible(self.density.alpha, self.density.gamma, v, u)
+    }
+}
+
+impl<T: Real, K: VisibleMasking<T>> StagedProfile<T> for Gtr<T, K> {
+    /// The choice of a component branches.
+    const STRAIGHT: bool = false;
+    type Solver = ();
+
+    #[inline(always)]
+    fn ask(&self, _: [T; 3], _: T, _: [T; 2]) {}
+
+    #[inline(always)]
+    fn normal(&self, v: [T; 3], s2: T, u: [T; 2], (): ()) -> ([T; 3], bool) {
+        (self.sample_visible(v, s2, u), true)
     }
 }
 

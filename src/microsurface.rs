@@ -3,7 +3,9 @@
 use crate::Real;
 use crate::error::Error;
 use crate::map::{Linear, Map, RoughnessMatrix, moved};
-use crate::ndf::{Course, Ndf, SampleNdf, SampleVndf, Slopes, Vec2, Vec3};
+use crate::ndf::staged::{Forms, Solver, StagedVndf};
+use crate::ndf::{Ndf, SampleNdf, SampleVndf, Vec2, Vec3};
+use crate::profile::staged::StagedProfile;
 use crate::profile::{Profile, SampleProfile, SampleVisibleProfile};
 use crate::vector::{dot, normalized, positive_part};
 
@@ -131,16 +133,8 @@ impl<P: Profile<M::Scalar>, M: Map> Ndf for Microsurface<P, M> {
     }
 
     #[inline(always)]
-    fn d_times(&self, wm: Vec3<Self>, fraction: [M::Scalar; 2]) -> M::Scalar {
-        let m: [M::Scalar; 3] = wm.into();
-        let product = self.profile.d_times(&self.map, m, M::Scalar::ONE, fraction);
-        if m[2] < M::Scalar::ZERO { M::Scalar::ZERO } else { product }
-    }
-
-    #[inline(always)]
-    fn d_along_times(&self, h: Vec3<Self>, fraction: [M::Scalar; 2]) -> M::Scalar {
-        let h: [M::Scalar; 3] = h.into();
-        self.profile.d_times(&self.map, h, dot(h, h), fraction)
+    fn d_times(&self, m: Vec3<Self>, length2: M::Scalar, fraction: [M::Scalar; 2]) -> M::Scalar {
+        self.profile.d_times(&self.map, m.into(), length2, fraction)
     }
 
     #[inline(always)]
@@ -182,7 +176,9 @@ impl<P: Profile<M::Scalar>, M: Map> Ndf for Microsurface<P, M> {
         let lambda = self.profile.lambda(&self.map, [x, y, z.abs()]);
         if z < M::Scalar::ZERO { -M::Scalar::ONE - lambda } else { lambda }
     }
+}
 
+impl<P: Forms, M: Copy> Forms for Microsurface<P, M> {
     #[inline(always)]
     fn form(&self) -> usize {
         self.profile.form()
@@ -203,33 +199,39 @@ impl<P: SampleProfile<M::Scalar>, M: Map> SampleNdf for Microsurface<P, M> {
 
 impl<P: SampleVisibleProfile<M::Scalar>, M: Map> SampleVndf for Microsurface<P, M> {
     #[inline(always)]
-    fn course(&self) -> Course {
-        P::COURSE
-    }
-
-    #[inline(always)]
     fn sample_vndf(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self> {
-        self.sample_of_along(self.sample_along(w, u))
+        normalized(self.sample_vndf_along(w, u).into()).into()
     }
 
     #[inline(always)]
-    fn sample_along(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self> {
+    fn sample_vndf_along(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self> {
         let w: [M::Scalar; 3] = w.into();
         let (v, s2) = (self.map.pull_direction(w), self.map.direction_term(w));
         let m = self.profile.sample_visible(v, s2, u.into());
         turned_into_view(w, self.map.push_normal(m)).into()
     }
+}
+
+impl<P: StagedProfile<M::Scalar>, M: Map> StagedVndf for Microsurface<P, M> {
+    const STRAIGHT: bool = P::STRAIGHT;
+    type Solver = P::Solver;
 
     #[inline(always)]
-    fn usual_sample_along(
+    fn ask(&self, w: Vec3<Self>, u: Vec2<Self>) -> <P::Solver as Solver>::Question {
+        let w: [M::Scalar; 3] = w.into();
+        self.profile.ask(self.map.pull_direction(w), self.map.direction_term(w), u.into())
+    }
+
+    #[inline(always)]
+    fn normal(
         &self,
         w: Vec3<Self>,
         u: Vec2<Self>,
-        slopes: Slopes<'_, M::Scalar>,
+        answer: <P::Solver as Solver>::Answer,
     ) -> (Vec3<Self>, bool) {
         let w: [M::Scalar; 3] = w.into();
         let (v, s2) = (self.map.pull_direction(w), self.map.direction_term(w));
-        let (m, usual) = self.profile.usual_visible_sample(v, s2, u.into(), slopes);
+        let (m, usual) = self.profile.normal(v, s2, u.into(), answer);
         let m = self.map.push_normal(m);
         (m.into(), usual && in_view(w, m))
     }

@@ -1,6 +1,7 @@
 //! The traits of a normal distribution function: evaluation, and sampling of all or of visible normals.
 
-mod borrowed;
+pub(crate) mod forwarded;
+pub(crate) mod staged;
 
 use crate::Real;
 use crate::vector::{dot, normalized, positive_part, step};
@@ -31,7 +32,7 @@ pub type Vec3<N> = <<N as Ndf>::Scalar as Real>::Vec3;
 /// Vectors that are not of unit length give meaningless numbers, never a panic.
 ///
 /// # Example
-/// A distribution of one's own needs three functions; masking, visible-normal density and the rest follow.
+/// A distribution of one's own needs two functions; masking, visible-normal density and the rest follow.
 /// ```
 /// use microsurface::{Ggx, Ndf, glam::Vec3};
 /// /// Half of the surface smooth, half rough.
@@ -43,9 +44,6 @@ pub type Vec3<N> = <<N as Ndf>::Scalar as Real>::Vec3;
 ///     }
 ///     fn sigma(&self, w: Vec3) -> f32 {
 ///         0.5 * (Ggx::isotropic(0.1).unwrap().sigma(w) + Ggx::isotropic(0.5).unwrap().sigma(w))
-///     }
-///     fn lambda(&self, w: Vec3) -> f32 {
-///         0.5 * (Ggx::isotropic(0.1).unwrap().lambda(w) + Ggx::isotropic(0.5).unwrap().lambda(w))
 ///     }
 /// }
 /// let w = Vec3::new(0.8, 0.0, 0.6);
@@ -76,7 +74,15 @@ pub trait Ndf {
     ///
     /// # Special cases
     /// w.z = 0 → ∞; w.z < 0 → −1 − Λ(−w), as in Heitz 2016.
-    fn lambda(&self, w: Vec3<Self>) -> Self::Scalar;
+    ///
+    /// The default is |w.z| Λ = σ of the direction below the horizon, which does not cancel.
+    #[inline(always)]
+    fn lambda(&self, w: Vec3<Self>) -> Self::Scalar {
+        let [x, y, z]: [Self::Scalar; 3] = w.into();
+        let below = z < Self::Scalar::ZERO;
+        let lambda = self.sigma(if below { w } else { [-x, -y, -z].into() }) / z.abs();
+        if below { -Self::Scalar::ONE - lambda } else { lambda }
+    }
 
     /// σ(w) for w on or above the horizon, without what only the lower half needs.
     ///
@@ -99,18 +105,16 @@ pub trait Ndf {
         self.d(normalized(h.into()).into())
     }
 
-    /// [`d`](Self::d) times a fraction, numerator and denominator.
+    /// D along a vector m of this squared length, times a fraction, numerator and denominator: one
+    /// quotient for both.
+    ///
+    /// # Domain
+    /// That of [`d_along`](Self::d_along).
     #[doc(hidden)]
     #[inline(always)]
-    fn d_times(&self, wm: Vec3<Self>, fraction: [Self::Scalar; 2]) -> Self::Scalar {
-        self.d(wm) * fraction[0] / fraction[1]
-    }
-
-    /// [`d_along`](Self::d_along) times a fraction.
-    #[doc(hidden)]
-    #[inline(always)]
-    fn d_along_times(&self, h: Vec3<Self>, fraction: [Self::Scalar; 2]) -> Self::Scalar {
-        self.d_along(h) * fraction[0] / fraction[1]
+    fn d_times(&self, m: Vec3<Self>, length2: Self::Scalar, fraction: [Self::Scalar; 2]) -> Self::Scalar {
+        let d = if length2 == Self::Scalar::ONE { self.d(m) } else { self.d_along(m) };
+        d * fraction[0] / fraction[1]
     }
 
     /// zi zo/G2 of two directions above the horizon, times [`cosine_scale`].
@@ -199,28 +203,10 @@ pub trait Ndf {
     #[inline(always)]
     fn vndf(&self, w: Vec3<Self>, wm: Vec3<Self>) -> Self::Scalar {
         let sigma = self.sigma(w);
-        let density = self.d_times(wm, [positive_part(dot(w.into(), wm.into())), sigma]);
-        if sigma <= Self::Scalar::ZERO { Self::Scalar::ZERO } else { density }
-    }
-
-    /// Which of its forms the numbers of this distribution take, where one branch on what never changes chooses between
-    /// several: a [`batch`](crate::batch) takes the branch once, out of its loop.
-    ///
-    /// # Returns
-    /// 0 where there is only one.
-    #[inline(always)]
-    fn form(&self) -> usize {
-        0
-    }
-
-    /// The same, with the compiler told the number that [`form`](Self::form) gives. Any other gives meaningless numbers.
-    #[inline(always)]
-    #[must_use]
-    fn with_form(self, _form: usize) -> Self
-    where
-        Self: Sized,
-    {
-        self
+        let m: [Self::Scalar; 3] = wm.into();
+        let facing = positive_part(dot(w.into(), m));
+        let density = self.d_times(wm, Self::Scalar::ONE, [facing, sigma]);
+        if sigma <= Self::Scalar::ZERO || m[2] < Self::Scalar::ZERO { Self::Scalar::ZERO } else { density }
     }
 }
 
@@ -257,42 +243,8 @@ pub trait SampleNdf: Ndf {
     }
 }
 
-/// How a batch goes about samples.
-#[doc(hidden)]
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Course {
-    /// They have branches: they are compiled for the build's own vectors alone.
-    Branching,
-    /// Straight-line code.
-    Straight,
-    /// Straight-line code in which slopes are found that take longer than all else: see [`Slopes`].
-    Solving,
-    /// The same to 1e-6 of u.
-    SolvingTo1e6,
-}
-
-/// Where a visible Beckmann normal has its slopes from: a batch finds those of a whole block together.
-#[doc(hidden)]
-#[derive(Debug)]
-pub enum Slopes<'a, T: Real> {
-    /// From their equations, at once.
-    Solved,
-    /// From nowhere yet: all that counts is what they would be solved from, ν and u.
-    Asked(&'a mut (T::Wide, [T; 2])),
-    /// They were found before, along the view and across.
-    Found([T; 2]),
-}
-
 /// Sampling of the normals visible from a direction; the density is [`Ndf::vndf`].
 pub trait SampleVndf: Ndf {
-    /// How a batch goes about it.
-    #[doc(hidden)]
-    #[inline(always)]
-    #[must_use]
-    fn course(&self) -> Course {
-        Course::Straight
-    }
-
     /// A micronormal visible from `w`, of density [`vndf(w, ·)`](Ndf::vndf), from two random numbers.
     ///
     /// # Domain
@@ -303,30 +255,13 @@ pub trait SampleVndf: Ndf {
     /// A unit vector with z ≥ 0 and w·wm > 0.
     fn sample_vndf(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self>;
 
-    /// A vector along the sample, of any length whose square is a normal number, for callers who need not normalise it.
-    #[doc(hidden)]
+    /// A vector along [`sample_vndf`](Self::sample_vndf), not normalised: for callers that need its
+    /// direction alone.
+    ///
+    /// # Returns
+    /// A vector whose squared length is a normal number.
     #[inline(always)]
-    fn sample_along(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self> {
+    fn sample_vndf_along(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self> {
         self.sample_vndf(w, u)
-    }
-
-    /// [`sample_along`](Self::sample_along) without what hardly any sample needs, and whether it is that: a batch draws
-    /// a block anew where one is not.
-    #[doc(hidden)]
-    #[inline(always)]
-    fn usual_sample_along(
-        &self,
-        w: Vec3<Self>,
-        u: Vec2<Self>,
-        _slopes: Slopes<'_, Self::Scalar>,
-    ) -> (Vec3<Self>, bool) {
-        (self.sample_along(w, u), true)
-    }
-
-    /// The sample of a vector along it.
-    #[doc(hidden)]
-    #[inline(always)]
-    fn sample_of_along(&self, along: Vec3<Self>) -> Vec3<Self> {
-        along
     }
 }

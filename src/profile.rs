@@ -13,9 +13,11 @@
 //! | [`Beckmann`](crate::Beckmann) | exp(−q/z²)/(π z⁴) | z + ½ s e^{−ν²} ierfcx(ν), ν = z/s |
 //! | [`Gtr`](crate::Gtr) | c (z² + q)^{γ−2}/(q + α² z²)^γ | see [`gtr`](crate::gtr) |
 
+pub(crate) mod staged;
+
 use crate::Real;
 use crate::map::Map;
-use crate::ndf::{Course, Slopes, masked_cosines};
+use crate::ndf::masked_cosines;
 
 /// An isotropic slope profile.
 ///
@@ -30,7 +32,6 @@ pub trait Profile<T: Real>: Copy {
 
     /// [`d`](Self::d) times a positive fraction, numerator and denominator: for profiles whose D is a quotient, one for
     /// both.
-    #[doc(hidden)]
     #[inline(always)]
     fn d_times<M: Map<Scalar = T>>(&self, map: &M, m: [T; 3], length2: T, fraction: [T; 2]) -> T {
         self.d(map, m, length2) * fraction[0] / fraction[1]
@@ -40,7 +41,6 @@ pub trait Profile<T: Real>: Copy {
     fn sigma_above(&self, s2: T, z: T) -> T;
 
     /// zi zo/G2 times [`cosine_scale`](crate::ndf::cosine_scale), from (s², z) of two directions above the horizon.
-    #[doc(hidden)]
     #[inline(always)]
     fn masked_cosines(&self, [s2_i, z_i]: [T; 2], [s2_o, z_o]: [T; 2]) -> T {
         masked_cosines(z_i, z_o, self.sigma_above(s2_i, z_i), self.sigma_above(s2_o, z_o))
@@ -56,19 +56,6 @@ pub trait Profile<T: Real>: Copy {
     fn lambda<M: Map<Scalar = T>>(&self, map: &M, w: [T; 3]) -> T {
         self.sigma_backfacing(map.direction_term(w), w[2]) / w[2]
     }
-
-    /// See [`Ndf::form`](crate::Ndf::form).
-    #[inline(always)]
-    fn form(&self) -> usize {
-        0
-    }
-
-    /// See [`Ndf::with_form`](crate::Ndf::with_form).
-    #[inline(always)]
-    #[must_use]
-    fn with_form(self, _form: usize) -> Self {
-        self
-    }
 }
 
 /// A profile without parameters of its own, whose width is the map's: filtering it is another map.
@@ -82,20 +69,8 @@ pub trait SampleProfile<T: Real>: Profile<T> {
 
 /// A profile whose visible normals can be drawn.
 pub trait SampleVisibleProfile<T: Real>: Profile<T> {
-    /// See [`SampleVndf::course`](crate::SampleVndf::course).
-    #[doc(hidden)]
-    const COURSE: Course = Course::Straight;
-
     /// A normal of the profile itself (map I), of any length, visible from `v`, a vector of any length.
     ///
-    /// `s2` is v.x² + v.y² to rounding, the very number that [`sigma_above`](Profile::sigma_above) gets: whoever computes
-    /// both takes one root.
+    /// `s2` is v.x² + v.y² to rounding, the very number that [`sigma_above`](Profile::sigma_above) gets, so that both share one root.
     fn sample_visible(&self, v: [T; 3], s2: T, u: [T; 2]) -> [T; 3];
-
-    /// See [`SampleVndf::usual_vndf_sample`](crate::SampleVndf::usual_vndf_sample).
-    #[doc(hidden)]
-    #[inline(always)]
-    fn usual_visible_sample(&self, v: [T; 3], s2: T, u: [T; 2], _slopes: Slopes<'_, T>) -> ([T; 3], bool) {
-        (self.sample_visible(v, s2, u), true)
-    }
 }

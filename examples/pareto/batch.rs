@@ -7,7 +7,9 @@ use core::hint::black_box;
 use std::io::{self, Write};
 
 use microsurface::batch::simd::{Level, highest, limit_to};
-use microsurface::batch::{Directions, DirectionsMut, NdfBatch, Numbers, ReflectionBatch};
+use microsurface::batch::{
+    Directions, DirectionsMut, Material, NdfBatch, Numbers, ReflectionBatch, StagedVndf,
+};
 use microsurface::bsdf::RoughConductor;
 use microsurface::elementary::{erf, erf_inv};
 use microsurface::fresnel::{Schlick, Spectrum};
@@ -143,7 +145,7 @@ impl<T: Scalar> Questions<T> {
     /// Calls, loops and batches of a family; errors of radiance and of normals.
     fn family<N>(&mut self, name: &str, surface: N, [of_eval, of_normals]: &[Errors; 2])
     where
-        N: SampleVndf<Scalar = T> + Copy + 'static,
+        N: StagedVndf<Scalar = T> + Material<Local = N> + 'static,
     {
         let brdf = RoughConductor::new(surface, Schlick::new(T::lit(F0)).expect("a share"));
         let eval = format!("{name}: eval");

@@ -1,56 +1,11 @@
-//! The loop over blocks: what is read, what is written, and the body between.
+//! What a batch reads and what it writes, a block at a time.
 //!
-//! A block is a local array, so that the compiler knows without asking at run time that nothing it writes is read again,
-//! however many slices take part.
+//! A block is a local array, so that the compiler knows without asking at run time that nothing it
+//! writes is read again, however many slices take part. The last block is filled up and computed as
+//! a whole, so that there is no second, scalar loop for the rest.
 
-use core::borrow::Borrow;
-
-use crate::Real;
-use crate::batch::normals::normals;
-use crate::batch::{Directions, DirectionsMut, Numbers, Samples};
-use crate::ndf::{Course, Slopes};
-
-/// Elements in a block: a multiple of the lanes of any vectors, several times over, and few enough for a dozen arrays to
-/// stay in the first-level cache. The last block is computed as a whole like the others, so that there is no second,
-/// scalar loop for the rest.
-pub(super) const BLOCK: usize = 64;
-
-/// What a batch computes of each element.
-pub trait Body<M, I> {
-    /// The scalar of normals.
-    type Number: Real;
-    type Out;
-    /// How normals are sampled, where any are.
-    #[inline(always)]
-    fn course(&self, _material: &M) -> Course {
-        Course::Straight
-    }
-    /// The normal that an element samples; anything where it samples none.
-    #[inline(always)]
-    fn normal(&self, _material: &M, _input: I) -> [Self::Number; 3] {
-        [Self::Number::ZERO; 3]
-    }
-    /// The same without what hardly any element needs, and whether it is [`normal`](Self::normal): vector code would pay for
-    /// that always. The normals of a block where one is not usual are sampled anew.
-    #[inline(always)]
-    fn usual_normal(
-        &self,
-        material: &M,
-        input: I,
-        _slopes: Slopes<'_, Self::Number>,
-    ) -> ([Self::Number; 3], bool) {
-        (self.normal(material, input), true)
-    }
-    /// What is computed, of the normal among others.
-    fn of(&self, material: &M, input: I, normal: [Self::Number; 3]) -> Self::Out;
-}
-
-/// The material of an element, of what is read of it. Not a closure: nothing makes sure that a large one is inlined.
-pub(super) trait Maker<I> {
-    type Material;
-    type Made: Borrow<Self::Material>;
-    fn made(&self, item: I) -> Self::Made;
-}
+use crate::batch::arrays::{Directions, DirectionsMut, Numbers, Samples};
+use crate::ndf::staged::BLOCK;
 
 /// What a batch reads of each element. Sealed: slices, [`Directions`], [`Numbers`],
 /// [`Footprints`](crate::batch::Footprints), the numbers of a [`Varied`](crate::batch::Varied) material, and pairs and
@@ -103,37 +58,6 @@ pub trait Sink: sealed::Sink {
 pub(super) mod sealed {
     pub trait Source {}
     pub trait Sink {}
-}
-
-/// `body` of every element.
-#[inline(always)]
-pub(super) fn each<P, M, B, I, O>(numbers: P, maker: &M, body: &B, input: I, mut output: O)
-where
-    P: Source,
-    M: Maker<P::Item>,
-    B: Body<M::Material, I::Item, Out = O::Item>,
-    I: Source,
-    O: Sink,
-{
-    let Some(mut results) = output.first() else { return };
-    let len = output.count();
-    let (mut numbers_pad, mut pad) = (P::Pad::default(), I::Pad::default());
-    let mut start = 0;
-    while start < len {
-        let of = numbers.block(start, &mut numbers_pad);
-        let arguments = input.block(start, &mut pad);
-        let normals = normals::<P, M, B, I>(of, maker, body, arguments);
-        for lane in 0..BLOCK {
-            let material = maker.made(P::item(of, lane));
-            O::put(
-                &mut results,
-                lane,
-                body.of(material.borrow(), I::item(arguments, lane), normals.at(lane)),
-            );
-        }
-        output.write(start, &results);
-        start += BLOCK;
-    }
 }
 
 /// # Panics

@@ -26,12 +26,12 @@ pub struct Footprints<'a, T> {
 
 /// Footprints whose A + 2Σ is within the range of α, and the variance of the pixel's kernel: Σ = σ²(uᵀu + vᵀv).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Kernels<'a, T> {
+pub struct InRange<'a, T> {
     footprints: Footprints<'a, T>,
     variance: T,
 }
 
-impl<'a, T: Real> Kernels<'a, T> {
+impl<'a, T: Real> InRange<'a, T> {
     fn new(footprints: Footprints<'a, T>, variance: T) -> Result<Self, Error> {
         let (_, largest) = alpha_range::<T>();
         let Footprints { du_x, du_y, dv_x, dv_y } = footprints;
@@ -66,7 +66,7 @@ macro_rules! filtered {
         $(#[$doc])*
         #[derive(Debug, Clone, Copy, PartialEq)]
         pub struct $name<'a, T> {
-            kernels: Kernels<'a, T>,
+            in_range: InRange<'a, T>,
         }
 
         impl<'a, T: Real> $name<'a, T> {
@@ -77,11 +77,11 @@ macro_rules! filtered {
             /// [`Error::Covariance`] with the Σ of the first footprint that is not finite or has a step larger than a
             /// quarter of the largest α; of the variance, if it is not finite or negative.
             pub fn new(footprints: Footprints<'a, T>, variance: T) -> Result<Self, Error> {
-                Ok(Self { kernels: Kernels::new(footprints, variance)? })
+                Ok(Self { in_range: InRange::new(footprints, variance)? })
             }
         }
 
-        composed!(source ['a, T: Copy] $name<'a, T>, [T; 4] = (kernels: Kernels<'a, T> => 0), |steps| steps.0);
+        composed!(source ['a, T: Copy] $name<'a, T>, [T; 4] = (in_range: InRange<'a, T> => 0), |steps| steps.0);
     };
 }
 filtered!(
@@ -115,7 +115,7 @@ impl<P: ShapeInvariant, M: Map> Variation<Microsurface<P, M>> for Filtered<'_, M
     type Prepared = (Microsurface<P, M>, M::Scalar);
     #[inline(always)]
     fn prepared(&self, surface: &Microsurface<P, M>) -> Self::Prepared {
-        (*surface, self.kernels.variance)
+        (*surface, self.in_range.variance)
     }
     #[inline(always)]
     fn varied((surface, variance): &Self::Prepared, steps: [M::Scalar; 4]) -> Self::Surface {
@@ -128,7 +128,7 @@ impl<M: Map> Variation<Microsurface<Ggx, M>> for FilteredProjected<'_, M::Scalar
     type Prepared = (projected::OnDisc, M::Scalar);
     #[inline(always)]
     fn prepared(&self, surface: &Microsurface<Ggx, M>) -> Self::Prepared {
-        (projected::OnDisc::new(surface.map()), self.kernels.variance)
+        (projected::OnDisc::new(surface.map()), self.in_range.variance)
     }
     #[inline(always)]
     fn varied((surface, variance): &Self::Prepared, steps: [M::Scalar; 4]) -> Self::Surface {
@@ -140,4 +140,4 @@ composed!(
     source ['a, T: Copy] Footprints<'a, T>, [T; 4] =
     (du_x: &'a [T] => 0, du_y: &'a [T] => 1, dv_x: &'a [T] => 2, dv_y: &'a [T] => 3), |steps| steps.into()
 );
-composed!(source ['a, T: Copy] Kernels<'a, T>, [T; 4] = (footprints: Footprints<'a, T> => 0), |steps| steps.0);
+composed!(source ['a, T: Copy] InRange<'a, T>, [T; 4] = (footprints: Footprints<'a, T> => 0), |steps| steps.0);

@@ -1,7 +1,8 @@
 //! Any function of each element.
 
-use crate::batch::blocks::{Body, Sink, Source};
-use crate::batch::material::{Shared, each_of};
+use crate::batch::blocks::{Sink, Source};
+use crate::batch::material::{Shared, each_built};
+use crate::batch::stages::{Body, without_normals};
 
 /// `f` of every element, compiled for each level of the instruction set like every batch: for what has no entry point of its
 /// own, such as mixtures of BSDFs, filters, and the [`elementary`](crate::elementary) functions.
@@ -82,17 +83,17 @@ pub trait Function<I> {
 /// ```
 #[inline]
 pub fn map_inlined<I: Source, O: Sink>(input: I, output: O, f: impl Function<I::Item, Out = O::Item>) {
-    each_of((), Shared(&()), Of(f), input, output);
+    each_built((), Shared(&()), Alone(f), input, output);
 }
 
-/// The body of a function alone.
-struct Of<F>(F);
+/// A function that needs no material.
+struct Alone<F>(F);
 
-impl<F: Function<I>, I> Body<(), I> for Of<F> {
-    type Number = f32;
+impl<F: Function<I>, I> Body<(), I> for Alone<F> {
     type Out = F::Out;
+    without_normals!((), I, f32);
     #[inline(always)]
-    fn of(&self, (): &(), input: I, _: [f32; 3]) -> F::Out {
+    fn result(&self, (): &(), input: I, _: [f32; 3]) -> F::Out {
         self.0.of(input)
     }
 }

@@ -1,21 +1,21 @@
 //! Distributions over many directions.
 
-use crate::batch::blocks::Body;
-use crate::batch::{Directions, DirectionsMut, Materials, Numbers};
-use crate::ndf::{Course, Ndf, SampleNdf, SampleVndf, Slopes};
-
-/// The scalar of the distributions of a batch.
-type Scalar<B> = <<B as Materials>::Material as Ndf>::Scalar;
+use crate::batch::arrays::{Directions, DirectionsMut, Numbers};
+use crate::batch::material::Materials;
+use crate::batch::stages::{Body, without_normals};
+use crate::ndf::staged::{Solver, StagedVndf};
+use crate::ndf::{Ndf, SampleNdf};
+use crate::real::Real;
 
 /// A body of a batch: what is computed of a material and an element's arguments.
 macro_rules! body {
     ($name:ident: $($bound:path),+; $input:ty => $out:ty, |$surface:ident, $arguments:pat_param| $body:expr) => {
         struct $name;
         impl<N: $($bound +)+> Body<N, $input> for $name {
-            type Number = N::Scalar;
             type Out = $out;
+            without_normals!(N, $input, N::Scalar);
             #[inline(always)]
-            fn of(&self, $surface: &N, $arguments: $input, _: [N::Scalar; 3]) -> Self::Out {
+            fn result(&self, $surface: &N, $arguments: $input, _: [N::Scalar; 3]) -> Self::Out {
                 $body
             }
         }
@@ -34,30 +34,35 @@ body!(Normal: SampleNdf; [N::Scalar; 2] => (N::Scalar, N::Scalar, N::Scalar), |s
     m.into()
 });
 
+/// A direction and two random numbers.
+type Sampled<N> = ([<N as Ndf>::Scalar; 3], [<N as Ndf>::Scalar; 2]);
+
 struct VisibleNormal;
-impl<N: SampleVndf> Body<N, ([N::Scalar; 3], [N::Scalar; 2])> for VisibleNormal {
+impl<N: StagedVndf> Body<N, Sampled<N>> for VisibleNormal {
     type Number = N::Scalar;
     type Out = (N::Scalar, N::Scalar, N::Scalar);
+    const STRAIGHT: bool = N::STRAIGHT;
+    type Solver = N::Solver;
     #[inline(always)]
-    fn course(&self, surface: &N) -> Course {
-        surface.course()
+    fn ask(&self, surface: &N, (w, u): Sampled<N>) -> <N::Solver as Solver>::Question {
+        surface.ask(w.into(), u.into())
     }
     #[inline(always)]
-    fn normal(&self, surface: &N, (w, u): ([N::Scalar; 3], [N::Scalar; 2])) -> [N::Scalar; 3] {
-        surface.sample_along(w.into(), u.into()).into()
-    }
-    #[inline(always)]
-    fn usual_normal(
+    fn normal(
         &self,
         surface: &N,
-        (w, u): ([N::Scalar; 3], [N::Scalar; 2]),
-        slopes: Slopes<'_, N::Scalar>,
+        (w, u): Sampled<N>,
+        answer: <N::Solver as Solver>::Answer,
     ) -> ([N::Scalar; 3], bool) {
-        let (m, usual) = surface.usual_sample_along(w.into(), u.into(), slopes);
+        let (m, usual) = surface.normal(w.into(), u.into(), answer);
         (m.into(), usual)
     }
     #[inline(always)]
-    fn of(&self, surface: &N, _: ([N::Scalar; 3], [N::Scalar; 2]), along: [N::Scalar; 3]) -> Self::Out {
+    fn normal_in_full(&self, surface: &N, (w, u): Sampled<N>) -> [N::Scalar; 3] {
+        surface.sample_vndf_along(w.into(), u.into()).into()
+    }
+    #[inline(always)]
+    fn result(&self, surface: &N, _: Sampled<N>, along: [N::Scalar; 3]) -> Self::Out {
         let normal: [N::Scalar; 3] = surface.sample_of_along(along.into()).into();
         normal.into()
     }
@@ -84,80 +89,125 @@ impl<N: SampleVndf> Body<N, ([N::Scalar; 3], [N::Scalar; 2])> for VisibleNormal 
 /// assert_eq!(Vec3::new(x[0], y[0], z[0]), surface.sample_vndf(Vec3::new(0.6, 0.0, 0.8), Vec2::new(0.3, 0.7)));
 /// # Ok::<(), microsurface::Error>(())
 /// ```
-pub trait NdfBatch: Materials<Material: Ndf> {
+pub trait NdfBatch: Materials {
+    /// f32 or f64.
+    type Scalar: Real;
+
     /// D(wm), see [`Ndf::d`].
+    fn d_batch(&self, wm: Directions<'_, Self::Scalar>, out: &mut [Self::Scalar]);
+
+    /// σ(w) on the whole sphere, see [`Ndf::sigma`].
+    fn sigma_batch(&self, w: Directions<'_, Self::Scalar>, out: &mut [Self::Scalar]);
+
+    /// Λ(w), see [`Ndf::lambda`].
+    fn lambda_batch(&self, w: Directions<'_, Self::Scalar>, out: &mut [Self::Scalar]);
+
+    /// G1(w, wm), see [`Ndf::g1`].
+    fn g1_batch(
+        &self,
+        w: Directions<'_, Self::Scalar>,
+        wm: Directions<'_, Self::Scalar>,
+        out: &mut [Self::Scalar],
+    );
+
+    /// G2(wi, wo, wm), see [`Ndf::g2`].
+    fn g2_batch(
+        &self,
+        wi: Directions<'_, Self::Scalar>,
+        wo: Directions<'_, Self::Scalar>,
+        wm: Directions<'_, Self::Scalar>,
+        out: &mut [Self::Scalar],
+    );
+
+    /// D_w(wm), see [`Ndf::vndf`].
+    fn vndf_batch(
+        &self,
+        w: Directions<'_, Self::Scalar>,
+        wm: Directions<'_, Self::Scalar>,
+        out: &mut [Self::Scalar],
+    );
+
+    /// Normals of density D(wm) wm.z, see [`SampleNdf::sample_d`].
+    fn sample_d_batch(&self, u: Numbers<'_, Self::Scalar>, out: DirectionsMut<'_, Self::Scalar>)
+    where
+        Self::Material: SampleNdf;
+
+    /// Normals visible from w, see [`SampleVndf::sample_vndf`].
+    fn sample_vndf_batch(
+        &self,
+        w: Directions<'_, Self::Scalar>,
+        u: Numbers<'_, Self::Scalar>,
+        out: DirectionsMut<'_, Self::Scalar>,
+    ) where
+        Self::Material: StagedVndf;
+}
+
+impl<M: Materials<Material: Ndf> + ?Sized> NdfBatch for M {
+    type Scalar = <M::Material as Ndf>::Scalar;
+
     #[inline]
-    fn d_batch(&self, wm: Directions<'_, Scalar<Self>>, out: &mut [Scalar<Self>]) {
+    fn d_batch(&self, wm: Directions<'_, Self::Scalar>, out: &mut [Self::Scalar]) {
         self.each(D, wm, out);
     }
 
-    /// σ(w) on the whole sphere, see [`Ndf::sigma`].
     #[inline]
-    fn sigma_batch(&self, w: Directions<'_, Scalar<Self>>, out: &mut [Scalar<Self>]) {
+    fn sigma_batch(&self, w: Directions<'_, Self::Scalar>, out: &mut [Self::Scalar]) {
         self.each(Sigma, w, out);
     }
 
-    /// Λ(w), see [`Ndf::lambda`].
     #[inline]
-    fn lambda_batch(&self, w: Directions<'_, Scalar<Self>>, out: &mut [Scalar<Self>]) {
+    fn lambda_batch(&self, w: Directions<'_, Self::Scalar>, out: &mut [Self::Scalar]) {
         self.each(Lambda, w, out);
     }
 
-    /// G1(w, wm), see [`Ndf::g1`].
     #[inline]
     fn g1_batch(
         &self,
-        w: Directions<'_, Scalar<Self>>,
-        wm: Directions<'_, Scalar<Self>>,
-        out: &mut [Scalar<Self>],
+        w: Directions<'_, Self::Scalar>,
+        wm: Directions<'_, Self::Scalar>,
+        out: &mut [Self::Scalar],
     ) {
         self.each(G1, (w, wm), out);
     }
 
-    /// G2(wi, wo, wm), see [`Ndf::g2`].
     #[inline]
     fn g2_batch(
         &self,
-        wi: Directions<'_, Scalar<Self>>,
-        wo: Directions<'_, Scalar<Self>>,
-        wm: Directions<'_, Scalar<Self>>,
-        out: &mut [Scalar<Self>],
+        wi: Directions<'_, Self::Scalar>,
+        wo: Directions<'_, Self::Scalar>,
+        wm: Directions<'_, Self::Scalar>,
+        out: &mut [Self::Scalar],
     ) {
         self.each(G2, (wi, wo, wm), out);
     }
 
-    /// D_w(wm), see [`Ndf::vndf`].
     #[inline]
     fn vndf_batch(
         &self,
-        w: Directions<'_, Scalar<Self>>,
-        wm: Directions<'_, Scalar<Self>>,
-        out: &mut [Scalar<Self>],
+        w: Directions<'_, Self::Scalar>,
+        wm: Directions<'_, Self::Scalar>,
+        out: &mut [Self::Scalar],
     ) {
         self.each(Vndf, (w, wm), out);
     }
 
-    /// Normals of density D(wm) wm.z, see [`SampleNdf::sample_d`].
     #[inline]
-    fn sample_d_batch(&self, u: Numbers<'_, Scalar<Self>>, out: DirectionsMut<'_, Scalar<Self>>)
+    fn sample_d_batch(&self, u: Numbers<'_, Self::Scalar>, out: DirectionsMut<'_, Self::Scalar>)
     where
         Self::Material: SampleNdf,
     {
         self.each(Normal, u, out);
     }
 
-    /// Normals visible from w, see [`SampleVndf::sample_vndf`].
     #[inline]
     fn sample_vndf_batch(
         &self,
-        w: Directions<'_, Scalar<Self>>,
-        u: Numbers<'_, Scalar<Self>>,
-        out: DirectionsMut<'_, Scalar<Self>>,
+        w: Directions<'_, Self::Scalar>,
+        u: Numbers<'_, Self::Scalar>,
+        out: DirectionsMut<'_, Self::Scalar>,
     ) where
-        Self::Material: SampleVndf,
+        Self::Material: StagedVndf,
     {
         self.each(VisibleNormal, (w, u), out);
     }
 }
-
-impl<M: Materials<Material: Ndf> + ?Sized> NdfBatch for M {}

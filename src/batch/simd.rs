@@ -1,12 +1,14 @@
-//! The choice of vectors at run time, and the crate's only unsafe code: calls of functions that were compiled for an
-//! extension of the instruction set, after asking the processor whether it has it.
+//! The instruction set that batches use: which vectors the processor has, and a limit for tests.
+//!
+//! The crate's only unsafe code is here: calls of functions that were compiled for an extension of
+//! the instruction set, after asking the processor whether it has it.
 #![allow(
     unsafe_code,
     reason = "calling a function compiled for a target feature; each call says why it is sound"
 )]
 
 /// A loop that is compiled for each level.
-pub(super) trait Kernel {
+pub(super) trait Vectorized {
     fn run(self);
 }
 
@@ -32,26 +34,29 @@ pub use chosen::{highest, level, limit_to};
 /// Nothing to choose from.
 #[cfg(not(all(feature = "std", any(target_arch = "x86", target_arch = "x86_64"))))]
 mod fixed {
-    use super::{Kernel, Level};
+    use super::{Level, Vectorized};
 
+    /// The highest level of this processor: the build's own.
     #[must_use]
     pub fn highest() -> Level {
         Level::Target
     }
 
+    /// Limits all batches of the process to a level; there is but one here.
     #[expect(clippy::must_use_candidate, reason = "called for its effect")]
     pub fn limit_to(_: Level) -> Level {
         Level::Target
     }
 
+    /// The level in use.
     #[must_use]
     pub fn level() -> Level {
         Level::Target
     }
 
     #[inline]
-    pub(crate) fn run(kernel: impl Kernel) {
-        kernel.run();
+    pub(crate) fn run(batch: impl Vectorized) {
+        batch.run();
     }
 }
 
@@ -59,7 +64,7 @@ mod fixed {
 mod x86 {
     use core::sync::atomic::{AtomicU8, Ordering};
 
-    use super::{Kernel, Level};
+    use super::{Level, Vectorized};
 
     /// The level in use, as a number one higher; 0 before the processor has been asked. Only [`set`] writes it, and
     /// only what [`highest`] allows.
@@ -110,24 +115,24 @@ mod x86 {
     }
 
     #[inline]
-    pub(crate) fn run(kernel: impl Kernel) {
+    pub(crate) fn run(batch: impl Vectorized) {
         match level() {
             // SAFETY: `level` is at most `highest`, which asked the processor for each of the features.
-            Level::Avx512 => unsafe { avx512(kernel) },
+            Level::Avx512 => unsafe { avx512(batch) },
             // SAFETY: the same.
-            Level::Avx2 => unsafe { avx2(kernel) },
-            Level::Target => kernel.run(),
+            Level::Avx2 => unsafe { avx2(batch) },
+            Level::Target => batch.run(),
         }
     }
 
     // Without `fma`: nothing is contracted, so it would change nothing.
     #[target_feature(enable = "avx2")]
-    fn avx2(kernel: impl Kernel) {
-        kernel.run();
+    fn avx2(batch: impl Vectorized) {
+        batch.run();
     }
 
     #[target_feature(enable = "avx2,avx512f,avx512bw,avx512dq,avx512vl")]
-    fn avx512(kernel: impl Kernel) {
-        kernel.run();
+    fn avx512(batch: impl Vectorized) {
+        batch.run();
     }
 }

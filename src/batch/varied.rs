@@ -2,9 +2,10 @@
 
 use crate::Real;
 use crate::alpha::{alpha_range, mirror_alpha, refused};
-use crate::batch::Directions;
-use crate::batch::blocks::{Body, Maker, Sink, Source, composed};
-use crate::batch::material::{Material, Materials, each_of};
+use crate::batch::arrays::Directions;
+use crate::batch::blocks::{Sink, Source, composed};
+use crate::batch::material::{Material, Materials, each_built};
+use crate::batch::stages::{Body, Builder};
 use crate::bsdf::RoughConductor;
 use crate::error::Error;
 use crate::map::RoughnessMatrix;
@@ -49,7 +50,7 @@ pub struct Varied<'a, B, V> {
     by: V,
 }
 
-impl<'a, B: Base, V: Variation<B::Surface>> Varied<'a, B, V> {
+impl<'a, B: OnSurface, V: Variation<B::Surface>> Varied<'a, B, V> {
     /// The material varied by numbers of each element.
     #[inline]
     #[must_use]
@@ -59,45 +60,45 @@ impl<'a, B: Base, V: Variation<B::Surface>> Varied<'a, B, V> {
 }
 
 /// What can be varied: a microsurface, or a BSDF on one. Sealed: [`Microsurface`], [`RoughConductor`].
-pub trait Base: Copy + sealed::Base {
+pub trait OnSurface: Copy + sealed::OnSurface {
     #[doc(hidden)]
     type Surface;
     #[doc(hidden)]
-    type On<N>;
+    type WithSurface<N>;
     #[doc(hidden)]
     fn base_surface(&self) -> &Self::Surface;
     #[doc(hidden)]
-    fn on<N>(self, surface: N) -> Self::On<N>;
+    fn on_surface<N>(self, surface: N) -> Self::WithSurface<N>;
 }
 
 mod sealed {
-    pub trait Base {}
-    impl<P, M> Base for crate::Microsurface<P, M> {}
-    impl<N, F, S> Base for crate::bsdf::RoughConductor<N, F, S> {}
+    pub trait OnSurface {}
+    impl<P, M> OnSurface for crate::Microsurface<P, M> {}
+    impl<N, F, S> OnSurface for crate::bsdf::RoughConductor<N, F, S> {}
 }
 
-impl<P: Copy, M: Copy> Base for Microsurface<P, M> {
+impl<P: Copy, M: Copy> OnSurface for Microsurface<P, M> {
     type Surface = Self;
-    type On<N> = N;
+    type WithSurface<N> = N;
     #[inline(always)]
     fn base_surface(&self) -> &Self {
         self
     }
     #[inline(always)]
-    fn on<N>(self, surface: N) -> N {
+    fn on_surface<N>(self, surface: N) -> N {
         surface
     }
 }
 
-impl<N0: Copy, F: Copy, S: Copy> Base for RoughConductor<N0, F, S> {
+impl<N0: Copy, F: Copy, S: Copy> OnSurface for RoughConductor<N0, F, S> {
     type Surface = N0;
-    type On<N> = RoughConductor<N, F, S>;
+    type WithSurface<N> = RoughConductor<N, F, S>;
     #[inline(always)]
     fn base_surface(&self) -> &N0 {
         self.surface()
     }
     #[inline(always)]
-    fn on<N>(self, surface: N) -> RoughConductor<N, F, S> {
+    fn on_surface<N>(self, surface: N) -> RoughConductor<N, F, S> {
         self.with_surface(surface)
     }
 }
@@ -115,13 +116,17 @@ pub trait Variation<N>: Source {
     fn varied(prepared: &Self::Prepared, numbers: Self::Item) -> Self::Surface;
 }
 
+/// The varied material of an element.
+type VariedMaterial<B, V> =
+    <B as OnSurface>::WithSurface<<V as Variation<<B as OnSurface>::Surface>>::Surface>;
+
 impl<B, V> Materials for Varied<'_, B, V>
 where
-    B: Base,
+    B: OnSurface,
     V: Variation<B::Surface>,
-    B::On<V::Surface>: Material,
+    VariedMaterial<B, V>: Material,
 {
-    type Material = B::On<V::Surface>;
+    type Material = VariedMaterial<B, V>;
     #[inline]
     fn each<C, I, O>(&self, body: C, input: I, output: O)
     where
@@ -130,22 +135,22 @@ where
         O: Sink,
     {
         let prepared = self.by.prepared(self.material.base_surface());
-        each_of(self.by, Variant::<B, V> { base: *self.material, prepared }, body, input, output);
+        each_built(self.by, OnEach::<B, V> { base: *self.material, prepared }, body, input, output);
     }
 }
 
-/// The material of an element: a base with the surface of the element's numbers.
-struct Variant<B: Base, V: Variation<B::Surface>> {
+/// Puts the surface of an element's numbers under the base material.
+struct OnEach<B: OnSurface, V: Variation<B::Surface>> {
     base: B,
     prepared: V::Prepared,
 }
 
-impl<B: Base, V: Variation<B::Surface>> Maker<V::Item> for Variant<B, V> {
-    type Material = B::On<V::Surface>;
-    type Made = B::On<V::Surface>;
+impl<B: OnSurface, V: Variation<B::Surface>> Builder<V::Item> for OnEach<B, V> {
+    type Material = VariedMaterial<B, V>;
+    type Built = VariedMaterial<B, V>;
     #[inline(always)]
-    fn made(&self, numbers: V::Item) -> B::On<V::Surface> {
-        self.base.on(V::varied(&self.prepared, numbers))
+    fn build(&self, numbers: V::Item) -> VariedMaterial<B, V> {
+        self.base.on_surface(V::varied(&self.prepared, numbers))
     }
 }
 

@@ -1,11 +1,12 @@
 //! Beckmann whose visible normals are drawn faster and less exactly.
 
-use super::visible::To1e6;
-use super::{Beckmann, sample, usual_sample};
+use super::visible::{To1e6, VisibleSlopes};
+use super::{Beckmann, cotangent, facet_from_above, sample};
 use crate::Real;
 use crate::map::Map;
 use crate::microsurface::shape_invariant;
-use crate::ndf::{Course, Slopes};
+use crate::ndf::staged::Forms;
+use crate::profile::staged::StagedProfile;
 use crate::profile::{Profile, SampleProfile, SampleVisibleProfile};
 
 /// [`Beckmann`] with another sampling of visible normals: to 1e-6 of u instead of to rounding.
@@ -67,15 +68,25 @@ impl<T: Real> SampleProfile<T> for BeckmannTo1e6 {
 }
 
 impl<T: Real> SampleVisibleProfile<T> for BeckmannTo1e6 {
-    const COURSE: Course = Course::SolvingTo1e6;
-
     #[inline(always)]
     fn sample_visible(&self, v: [T; 3], s2: T, u: [T; 2]) -> [T; 3] {
         sample::<To1e6, T>(v, s2, u)
     }
+}
+
+impl Forms for BeckmannTo1e6 {}
+
+impl<T: Real> StagedProfile<T> for BeckmannTo1e6 {
+    const STRAIGHT: bool = true;
+    type Solver = VisibleSlopes<To1e6, T>;
 
     #[inline(always)]
-    fn usual_visible_sample(&self, v: [T; 3], s2: T, u: [T; 2], slopes: Slopes<'_, T>) -> ([T; 3], bool) {
-        usual_sample::<To1e6, T>(v, s2, u, slopes)
+    fn ask(&self, v: [T; 3], s2: T, u: [T; 2]) -> (T, [T; 2]) {
+        (cotangent::<To1e6, T>(v[2], s2.sqrt()), u)
+    }
+
+    #[inline(always)]
+    fn normal(&self, v: [T; 3], s2: T, u: [T; 2], slopes: [T; 2]) -> ([T; 3], bool) {
+        facet_from_above(v, s2, u, slopes)
     }
 }

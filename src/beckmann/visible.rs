@@ -76,10 +76,10 @@ use self::view::View;
 use crate::elementary::{erfc_inv_inside, erfc_inv_inside_wide};
 use crate::real::{Real, converted};
 
-pub(crate) use self::block::slopes_from_above;
+pub(super) use self::block::VisibleSlopes;
 
 /// How the equation is solved for a scalar.
-pub(crate) trait Inversion<T: Real> {
+pub trait Inversion<T: Real> {
     /// The scalar of F and of the steps.
     type Wide: Real;
     /// The fit of h.
@@ -90,7 +90,8 @@ pub(crate) trait Inversion<T: Real> {
 
 /// As a difference of u to 3e-8 in f32, half the step of u below 1, and to 2e-15 in f64. Both slopes are monotone in u, for every
 /// f32, and for f64 at steps of 2⁻⁴⁴.
-pub(crate) struct ToRounding;
+#[derive(Debug)]
+pub struct ToRounding;
 
 impl<T: Real> Inversion<T> for ToRounding {
     type Wide = T::Wide;
@@ -102,7 +103,8 @@ impl<T: Real> Inversion<T> for ToRounding {
 }
 
 /// In the arithmetic of the scalar: in f32 to 1e-6 as a difference of u, not monotone ulp by ulp; in f64 [`ToRounding`].
-pub(crate) struct To1e6;
+#[derive(Debug)]
+pub struct To1e6;
 
 impl<T: Real> Inversion<T> for To1e6 {
     type Wide = T;

@@ -7,6 +7,7 @@ use crate::filter::{Footprint, MeanOverParallelogram, polygon};
 use crate::fresnel::{Fresnel, Spectrum};
 use crate::map::Map;
 use crate::microsurface::Microsurface;
+use crate::ndf::staged::Forms;
 use crate::ndf::{Ndf, Vec2, Vec3, cosine_scale};
 use crate::vector::dot;
 
@@ -84,15 +85,6 @@ impl<N, F, S> RoughConductor<N, F, S> {
         RoughConductor { surface, fresnel: self.fresnel, sampling: self.sampling }
     }
 
-    /// The same with its surface in a known form; see [`Ndf::with_form`].
-    #[inline(always)]
-    pub(crate) fn with_surface_form(self, form: usize) -> Self
-    where
-        N: Ndf,
-    {
-        Self { surface: self.surface.with_form(form), ..self }
-    }
-
     /// The choice of normals.
     #[inline(always)]
     pub(crate) const fn sampling(&self) -> &S {
@@ -104,6 +96,18 @@ impl<N, F, S> RoughConductor<N, F, S> {
     #[must_use]
     pub const fn fresnel(&self) -> &F {
         &self.fresnel
+    }
+}
+
+impl<N: Forms, F: Copy, S: Copy> Forms for RoughConductor<N, F, S> {
+    #[inline(always)]
+    fn form(&self) -> usize {
+        self.surface.form()
+    }
+
+    #[inline(always)]
+    fn with_form(self, form: usize) -> Self {
+        Self { surface: self.surface.with_form(form), ..self }
     }
 }
 
@@ -160,7 +164,7 @@ where
     pub fn eval(&self, wi: Vec3<N>, wo: Vec3<N>) -> F::Output {
         let half = Half::<N::Scalar>::new(wi.into(), wo.into());
         let per_d = [Self::quarter(), self.surface.masked_cosines(wi, wo)];
-        let f = self.surface.d_along_times(half.h.into(), per_d);
+        let f = self.surface.d_times(half.h.into(), half.length2, per_d);
         self.fresnel.reflectance(half.cosine()).scaled(half.select(finite(f)))
     }
 
@@ -243,8 +247,9 @@ where
     pub fn pdf(&self, wi: Vec3<N>, wo: Vec3<N>) -> N::Scalar {
         let half = Half::<N::Scalar>::new(wi.into(), wo.into());
         let wo_h = N::Scalar::HALF * half.length2;
-        let per_d = self.sampling.density_over_d(self.surface.sigma_above(wo), wo_h, half.h[2]);
-        let of_normals = half.select(self.surface.d_along_times(half.h.into(), per_d));
+        let per_d =
+            self.sampling.density_over_d(&self.surface, wo, self.surface.sigma_above(wo), wo_h, half.h[2]);
+        let of_normals = half.select(self.surface.d_times(half.h.into(), half.length2, per_d));
         match self.sampling.constant_density() {
             None => of_normals,
             Some(constant) => of_normals + if half.above { constant } else { N::Scalar::ZERO },
@@ -283,14 +288,15 @@ where
         let o: [N::Scalar; 3] = wo.into();
         let m: [N::Scalar; 3] = along.into();
         let wo_m = dot(o, m);
-        let factor = (wo_m + wo_m) / dot(m, m);
+        let length2 = dot(m, m);
+        let factor = (wo_m + wo_m) / length2;
         let i = [factor * m[0] - o[0], factor * m[1] - o[1], factor * m[2] - o[2]];
         let up = o[2] > N::Scalar::ZERO && i[2] > N::Scalar::ZERO && wo_m > N::Scalar::ZERO;
-        let per_d = self.sampling.density_over_d(self.surface.sigma_above(wo), wo_m, m[2]);
+        let per_d = self.sampling.density_over_d(&self.surface, wo, self.surface.sigma_above(wo), wo_m, m[2]);
         let masked = self.surface.masked_cosines(i.into(), wo);
         let (pdf, weight) = match self.sampling.constant_density() {
             None => (
-                self.surface.d_along_times(along, per_d),
+                self.surface.d_times(along, length2, per_d),
                 Self::quarter() * i[2] * per_d[1] / (per_d[0] * masked),
             ),
             Some(constant) => {

@@ -2,10 +2,11 @@
 
 use crate::Real;
 use crate::alpha::checked;
-use crate::bsdf::sampling::NormalSampling;
+use crate::bsdf::sampling::{NormalSampling, StagedSampling};
 use crate::elementary::sin_cos_of_turn;
 use crate::error::Error;
-use crate::ndf::{Course, Ndf, Slopes, Vec2, Vec3};
+use crate::ndf::staged::Solver;
+use crate::ndf::{Ndf, Vec2, Vec3};
 use crate::vector::{below_one, normalized};
 
 /// With probability p a direction uniform on the hemisphere, otherwise one reflected by a normal of `S`.
@@ -129,40 +130,25 @@ impl<S, T: Real> UniformMixture<S, T> {
 }
 
 impl<N: Ndf, S: NormalSampling<N>> NormalSampling<N> for UniformMixture<S, N::Scalar> {
-    #[inline(always)]
-    fn course(&self, surface: &N) -> Course {
-        self.other.course(surface)
-    }
-
     /// A normal of `S`, or the one halfway between `wo` and a uniform direction.
     ///
     /// u.x < 1 − p chooses the normals, for which u.x/(1 − p) is below 1 after rounding too; else (1 − u.x)/p ∈ (0, 1]
     /// is the height of a uniform direction, at least ε/2, so that the half vector does not vanish.
-    #[inline(always)]
-    fn sample(&self, surface: &N, wo: Vec3<N>, u: Vec2<N>) -> Vec3<N> {
-        self.or_uniform(wo, u, self.other.sample(surface, wo, self.of_other(u)))
-    }
-
     #[inline(always)]
     fn sample_along(&self, surface: &N, wo: Vec3<N>, u: Vec2<N>) -> Vec3<N> {
         self.or_uniform(wo, u, self.other.sample_along(surface, wo, self.of_other(u)))
     }
 
     #[inline(always)]
-    fn usual_sample_along(
+    fn density_over_d(
         &self,
         surface: &N,
         wo: Vec3<N>,
-        u: Vec2<N>,
-        slopes: Slopes<'_, N::Scalar>,
-    ) -> (Vec3<N>, bool) {
-        let (m, usual) = self.other.usual_sample_along(surface, wo, self.of_other(u), slopes);
-        (self.or_uniform(wo, u, m), usual)
-    }
-
-    #[inline(always)]
-    fn density_over_d(&self, sigma_o: N::Scalar, wo_m: N::Scalar, m_z: N::Scalar) -> [N::Scalar; 2] {
-        let [numerator, denominator] = self.other.density_over_d(sigma_o, wo_m, m_z);
+        sigma_o: N::Scalar,
+        wo_m: N::Scalar,
+        m_z: N::Scalar,
+    ) -> [N::Scalar; 2] {
+        let [numerator, denominator] = self.other.density_over_d(surface, wo, sigma_o, wo_m, m_z);
         [self.rest * numerator, denominator]
     }
 
@@ -174,5 +160,27 @@ impl<N: Ndf, S: NormalSampling<N>> NormalSampling<N> for UniformMixture<S, N::Sc
         };
         // Without it, D may leave the weight, which would be 0/0 where D has underflowed.
         (density > N::Scalar::ZERO).then_some(density)
+    }
+}
+
+impl<N: Ndf, S: StagedSampling<N>> StagedSampling<N> for UniformMixture<S, N::Scalar> {
+    const STRAIGHT: bool = S::STRAIGHT;
+    type Solver = S::Solver;
+
+    #[inline(always)]
+    fn ask(&self, surface: &N, wo: Vec3<N>, u: Vec2<N>) -> <S::Solver as Solver>::Question {
+        self.other.ask(surface, wo, self.of_other(u))
+    }
+
+    #[inline(always)]
+    fn normal(
+        &self,
+        surface: &N,
+        wo: Vec3<N>,
+        u: Vec2<N>,
+        answer: <S::Solver as Solver>::Answer,
+    ) -> (Vec3<N>, bool) {
+        let (m, usual) = self.other.normal(surface, wo, self.of_other(u), answer);
+        (self.or_uniform(wo, u, m), usual)
     }
 }

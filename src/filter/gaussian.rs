@@ -36,6 +36,7 @@ use crate::filter::Covariance;
 use crate::ggx::Ggx;
 use crate::map::{Gram, Linear, Map, Sums, factor, seen_by_profile};
 use crate::microsurface::Microsurface;
+use crate::ndf::staged::{Forms, StagedVndf};
 use crate::ndf::{Ndf, SampleNdf, SampleVndf, Vec2, Vec3};
 use crate::vector::{at_least_cosine, below_one, positive_part};
 
@@ -311,6 +312,26 @@ impl<T: Real, const N: usize> SampleVndf for FilteredGgx<T, N> {
             || self.tail.1.sample_vndf(w, [u1, u2].into()),
             |(_, core)| core.sample_vndf(w, [u1, u2].into()),
         )
+    }
+}
+
+impl<T: Real, const N: usize> Forms for FilteredGgx<T, N> {}
+
+impl<T: Real, const N: usize> StagedVndf for FilteredGgx<T, N> {
+    const STRAIGHT: bool = true;
+    type Solver = ();
+
+    #[inline(always)]
+    fn ask(&self, _: Vec3<Self>, _: Vec2<Self>) {}
+
+    #[inline(always)]
+    fn normal(&self, w: Vec3<Self>, u: Vec2<Self>, (): ()) -> (Vec3<Self>, bool) {
+        (self.sample_vndf(w, u), true)
+    }
+
+    #[inline(always)]
+    fn sample_of_along(&self, along: Vec3<Self>) -> Vec3<Self> {
+        along
     }
 }
 

@@ -18,6 +18,7 @@ use crate::gtr::integer::{LARGEST_DEGREE, Seen, series};
 use crate::gtr::{Gtr, Masking, VisibleMasking, range_and_log};
 use crate::map::Isotropic;
 use crate::microsurface::Microsurface;
+use crate::ndf::staged::Forms;
 use crate::profile::Profile;
 
 /// The exact mask of GTR at the integer γ = `G`, 0 … 10.
@@ -36,6 +37,8 @@ impl<T, const G: u8> Closed<T, G> {
         (G as usize).saturating_sub(2)
     };
 }
+
+impl<T: Real, const G: u8> Forms for Closed<T, G> {}
 
 impl<T: Real, const G: u8> Masking<T> for Closed<T, G> {
     fn new(alpha: T, gamma: T) -> Result<Self, Error> {

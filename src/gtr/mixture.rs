@@ -12,6 +12,7 @@ use crate::gtr::{Gtr, Masking, VisibleMasking};
 use crate::map::RoughnessMatrix;
 use crate::map::{AxisAligned, Isotropic, Linear};
 use crate::microsurface::Microsurface;
+use crate::ndf::staged::Forms;
 
 /// The mask of `N` nodes, and the components that visible normals are drawn from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,7 +51,9 @@ impl<T: Real, const N: usize> Masking<T> for Mixture<T, N> {
     fn sigma_backfacing(&self, s2: T, z: T) -> T {
         self.nodes.sigma_backfacing(s2, z)
     }
+}
 
+impl<T: Real, const N: usize> Forms for Mixture<T, N> {
     #[inline(always)]
     fn form(&self) -> usize {
         self.nodes.form()

@@ -41,6 +41,7 @@ use crate::gtr::measure::{Measure, Resolution, covered};
 use crate::gtr::{Gtr, Masking, VisibleMasking};
 use crate::map::Isotropic;
 use crate::microsurface::Microsurface;
+use crate::ndf::staged::Forms;
 use crate::real::construction::{exp, ln};
 
 /// The trapezoid rule the Gauss rule is made from: better than 1e-13 for α ≥ 1e-3, where the points suffice for the step.
@@ -219,7 +220,11 @@ impl<T: Real, const N: usize> Masking<T> for Nodes<T, N> {
             n => self.backfacing(n, s2, z),
         }
     }
+}
 
+impl<T: Real, const N: usize> Forms for GgxNodes<T, N> {}
+
+impl<T: Real, const N: usize> Forms for Nodes<T, N> {
     #[inline(always)]
     fn form(&self) -> usize {
         self.degree

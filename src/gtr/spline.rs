@@ -20,6 +20,7 @@ use crate::gtr::closed::Closed;
 use crate::gtr::{Gtr, Masking};
 use crate::map::Isotropic;
 use crate::microsurface::Microsurface;
+use crate::ndf::staged::Forms;
 
 /// Dimov's interpolated mask.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -90,6 +91,8 @@ impl<T: Real> Spline<T> {
             + w[4] / self.gamma4.sigma_above(s2, z)
     }
 }
+
+impl<T: Real> Forms for Spline<T> {}
 
 impl<T: Real> Masking<T> for Spline<T> {
     fn new(alpha: T, gamma: T) -> Result<Self, Error> {

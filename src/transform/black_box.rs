@@ -4,7 +4,8 @@ use crate::Real;
 use crate::error::Error;
 use crate::map::invertible;
 use crate::microsurface::{in_view, turned_into_view};
-use crate::ndf::{Course, Ndf, SampleNdf, SampleVndf, Slopes, Vec2, Vec3};
+use crate::ndf::staged::{Forms, Solver, StagedVndf};
+use crate::ndf::{Ndf, SampleNdf, SampleVndf, Vec2, Vec3};
 use crate::vector::{at_least_cosine, dot, normalized};
 
 /// Any distribution, moved by a 2×2 matrix of the tangent plane.
@@ -34,9 +35,6 @@ use crate::vector::{at_least_cosine, dot, normalized};
 ///     }
 ///     fn sigma(&self, w: Vec3) -> f32 {
 ///         0.5 * (w.z + w.length())
-///     }
-///     fn lambda(&self, w: Vec3) -> f32 {
-///         0.5 * (w.length() / w.z - 1.0)
 ///     }
 /// }
 /// let drawn = Transformed::new(Uniform, Mat2::from_diagonal(Vec2::new(2.0, 1.0)))?;
@@ -205,29 +203,46 @@ impl<N: SampleNdf> SampleNdf for Transformed<N> {
 
 impl<N: SampleVndf> SampleVndf for Transformed<N> {
     #[inline(always)]
-    fn course(&self) -> Course {
-        self.ndf.course()
-    }
-
-    #[inline(always)]
     fn sample_vndf(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self> {
-        self.sample_of_along(self.sample_along(w, u))
+        normalized(self.sample_vndf_along(w, u).into()).into()
     }
 
     #[inline(always)]
-    fn sample_along(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self> {
+    fn sample_vndf_along(&self, w: Vec3<Self>, u: Vec2<Self>) -> Vec3<Self> {
         let m = self.ndf.sample_vndf(self.pulled_direction(w).0, u);
         turned_into_view(w.into(), self.pushed_normal(m)).into()
     }
+}
+
+impl<N: Ndf + Forms> Forms for Transformed<N> {
+    #[inline(always)]
+    fn form(&self) -> usize {
+        self.ndf.form()
+    }
 
     #[inline(always)]
-    fn usual_sample_along(
+    fn with_form(self, form: usize) -> Self {
+        Self { ndf: self.ndf.with_form(form), ..self }
+    }
+}
+
+impl<N: StagedVndf> StagedVndf for Transformed<N> {
+    const STRAIGHT: bool = N::STRAIGHT;
+    type Solver = N::Solver;
+
+    #[inline(always)]
+    fn ask(&self, w: Vec3<Self>, u: Vec2<Self>) -> <N::Solver as Solver>::Question {
+        self.ndf.ask(self.pulled_direction(w).0, u)
+    }
+
+    #[inline(always)]
+    fn normal(
         &self,
         w: Vec3<Self>,
         u: Vec2<Self>,
-        slopes: Slopes<'_, N::Scalar>,
+        answer: <N::Solver as Solver>::Answer,
     ) -> (Vec3<Self>, bool) {
-        let (m, usual) = self.ndf.usual_sample_along(self.pulled_direction(w).0, u, slopes);
+        let (m, usual) = self.ndf.normal(self.pulled_direction(w).0, u, answer);
         let m = self.pushed_normal(self.ndf.sample_of_along(m));
         (m.into(), usual && in_view(w.into(), m))
     }

@@ -12,7 +12,7 @@ use std::panic::catch_unwind;
 
 use microsurface::batch::simd::{Level, highest, level, limit_to};
 use microsurface::batch::{
-    Directions, DirectionsMut, Materials, NdfBatch, Numbers, ReflectionBatch, Samples,
+    Custom, Directions, DirectionsMut, NdfBatch, Numbers, ReflectionBatch, Samples, StagedVndf,
 };
 use microsurface::beckmann::BeckmannTo1e6;
 use microsurface::bsdf::{AllNormals, NormalSampling, RoughConductor, UniformMixture, VisibleNormals};
@@ -144,11 +144,12 @@ fn slice<M: Copy>(materials: [M; 2], check: impl Fn(&[M], usize, &dyn Fn(usize) 
     }
 }
 
-type Scalar<B> = <<B as Materials>::Material as Ndf>::Scalar;
+type Scalar<B> = <B as NdfBatch>::Scalar;
 
-fn evaluates<B: NdfBatch + ?Sized>(batch: &B, len: usize, at: &dyn Fn(usize) -> B::Material)
+fn evaluates<B, N>(batch: &B, len: usize, at: &dyn Fn(usize) -> N)
 where
-    B::Material: SampleNdf,
+    B: NdfBatch<Material: SampleNdf, Scalar = N::Scalar> + ?Sized,
+    N: SampleNdf,
 {
     let a = Arguments::<Scalar<B>>::new(len, 1);
     let (wi, wo) = (|i| direction::<Scalar<B>>(&a.wi, i), |i| direction::<Scalar<B>>(&a.wo, i));
@@ -171,9 +172,10 @@ where
     same_directions("sample_d", &normals, |i| at(i).sample_d(numbers(&a.u, i)));
 }
 
-fn samples<B: NdfBatch + ?Sized>(batch: &B, len: usize, at: &dyn Fn(usize) -> B::Material)
+fn samples<B, N>(batch: &B, len: usize, at: &dyn Fn(usize) -> N)
 where
-    B::Material: SampleVndf,
+    B: NdfBatch<Material: StagedVndf, Scalar = N::Scalar> + ?Sized,
+    N: SampleVndf,
 {
     for a in [Arguments::<Scalar<B>>::new(len, 2), Arguments::usual(len, 2)] {
         let mut normals = [0, 1, 2].map(|_| vec![Scalar::<B>::ONE; len]);
@@ -191,7 +193,7 @@ where
     F: Fresnel + Copy,
     F::Output: Spectrum<Scalar = N::Scalar>,
     S: NormalSampling<N> + Copy,
-    B: Materials<Material = RoughConductor<N, F, S>> + ?Sized,
+    B: ReflectionBatch<Scalar = N::Scalar, Spectrum = F::Output> + ?Sized,
 {
     let nothing = F::Output::splat(N::Scalar::ONE);
     // A channel at a time.
@@ -314,9 +316,6 @@ impl Ndf for Table {
     fn sigma(&self, w: Vec3) -> f32 {
         self.0[1].sigma(w)
     }
-    fn lambda(&self, w: Vec3) -> f32 {
-        self.0[1].lambda(w)
-    }
 }
 
 #[test]
@@ -327,11 +326,12 @@ fn spectra_of_three_and_borrowed_distributions() {
     let table = Table(surfaces.to_vec());
     let a = Arguments::<f32>::new(LONGEST, 5);
     let mut densities = [0.0; LONGEST];
-    (&table).vndf_batch(a.wo(), a.wi(), &mut densities);
+    Custom(&table).vndf_batch(a.wo(), a.wi(), &mut densities);
     same("vndf of a table", &densities, |i| table.vndf(direction(&a.wo, i), direction(&a.wi, i)));
 }
 
-/// Borrowed distributions and mixtures hand the question on, of whatever types the elements are.
+/// Borrowed distributions and mixtures ask as the distributions themselves; of whatever type is only known at run time,
+/// every element is drawn by its own sampler.
 #[test]
 fn slopes_of_borrowed_and_of_mixed_beckmann() {
     let surfaces = [0.3_f32, 0.01].map(|alpha| Beckmann::isotropic(alpha).unwrap());
@@ -341,7 +341,8 @@ fn slopes_of_borrowed_and_of_mixed_beckmann() {
     let any: [[&dyn SampleVndf<Scalar = f32>; 2]; 4] =
         [[&beckmann, &ggx], [&ggx, &beckmann], [&fast, &fast], [&ggx, &fast]];
     for pair in any {
-        one(pair, |m, len, at| samples(m, len, at));
+        one(pair.map(Custom), |m, len, at| samples(m, len, at));
+        slice(pair.map(Custom), |m, len, at| samples(m, len, at));
     }
     let mixture = UniformMixture::new(VisibleNormals, 0.3).unwrap();
     let mixed =

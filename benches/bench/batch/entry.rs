@@ -6,12 +6,14 @@ use core::hint::black_box;
 
 use criterion::Criterion;
 use microsurface::batch::simd::{Level, highest, limit_to};
-use microsurface::batch::{self, DirectionsMut, NdfBatch, Numbers, ReflectionBatch, Samples};
+use microsurface::batch::{
+    self, DirectionsMut, Material, NdfBatch, Numbers, ReflectionBatch, Samples, StagedVndf,
+};
 use microsurface::beckmann::BeckmannTo1e6;
 use microsurface::bsdf::RoughConductor;
 use microsurface::elementary::{erf, erf_inv};
 use microsurface::fresnel::{Schlick, Spectrum};
-use microsurface::{Beckmann, Ggx, Gtr, Ndf, Real, SampleVndf};
+use microsurface::{Beckmann, Ggx, Gtr, Real};
 
 use super::{
     ALPHA, Alternative, Directions, F0, compare, d, eval, normal_slices, opaque, pair_slices, slices,
@@ -168,7 +170,7 @@ impl<T: Elementary + Spectrum<Scalar = T>> Arguments<T> {
 
     fn ask<N>(&self, criterion: &mut Criterion, name: &str, surface: N)
     where
-        N: SampleVndf + Ndf<Scalar = T> + Copy,
+        N: StagedVndf<Scalar = T> + Material<Local = N>,
     {
         let n = self.wo.x.len();
         let (wi, wo) = (self.wi.slices(), self.wo.slices());
@@ -210,7 +212,7 @@ impl<T: Elementary + Spectrum<Scalar = T>> Arguments<T> {
 
     fn visible_normals<N>(&self, criterion: &mut Criterion, name: &str, surface: N)
     where
-        N: SampleVndf + Ndf<Scalar = T> + Copy,
+        N: StagedVndf<Scalar = T> + Material<Local = N>,
     {
         let (n, wo, wo_batch) = (self.wo.x.len(), self.wo.slices(), self.wo.borrowed());
         let u: [&[T]; 2] = [&self.u[0], &self.u[1]];
@@ -237,7 +239,7 @@ impl<T: Elementary + Spectrum<Scalar = T>> Arguments<T> {
 
     fn samples<N>(&self, criterion: &mut Criterion, name: &str, brdf: RoughConductor<N, Schlick<T>>)
     where
-        N: SampleVndf + Ndf<Scalar = T> + Copy,
+        N: StagedVndf<Scalar = T> + Material<Local = N>,
     {
         let (n, wo, wo_batch) = (self.wo.x.len(), self.wo.slices(), self.wo.borrowed());
         let u: [&[T]; 2] = [&self.u[0], &self.u[1]];

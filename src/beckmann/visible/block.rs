@@ -1,16 +1,54 @@
-//! Many slopes at once.
+//! The slopes of a block of visible normals, solved together.
 
 use super::guess::Outset;
 use super::view::View;
 use super::{Inversion, slope_at, steps, within};
+use crate::ndf::staged::{BLOCK, Solver};
 use crate::real::{Real, converted};
+
+/// The slopes along and across the view of a block of samples; they take longer than all else.
+#[derive(Debug)]
+pub struct VisibleSlopes<I: Inversion<T>, T: Real> {
+    nu: [I::Wide; BLOCK],
+    /// u, then the slopes.
+    slopes: [[T; BLOCK]; 2],
+}
+
+impl<I: Inversion<T>, T: Real> Solver for VisibleSlopes<I, T> {
+    /// ν and u.
+    type Question = (I::Wide, [T; 2]);
+    /// The slopes along the view and across it.
+    type Answer = [T; 2];
+    type Block = Self;
+
+    #[inline(always)]
+    fn block() -> Self {
+        Self { nu: [I::Wide::ZERO; BLOCK], slopes: [[T::ZERO; BLOCK]; 2] }
+    }
+
+    #[inline(always)]
+    fn ask(block: &mut Self, lane: usize, (nu, [u1, u2]): Self::Question) {
+        block.nu[lane] = nu;
+        (block.slopes[0][lane], block.slopes[1][lane]) = (u1, u2);
+    }
+
+    #[inline(always)]
+    fn solve(block: &mut Self) {
+        slopes_from_above::<I, T, BLOCK>(&block.nu, &mut block.slopes);
+    }
+
+    #[inline(always)]
+    fn answer(block: &Self, lane: usize) -> [T; 2] {
+        [block.slopes[0][lane], block.slopes[1][lane]]
+    }
+}
 
 /// [`slopes`](super::slopes) of many ν ≥ 0 at once, instead of u; where ν is negative or NaN, meaningless numbers.
 ///
 /// Each is one long chain of operations, longer than a processor looks ahead, so that a loop over the whole chain waits for it.
 /// Loops over its parts overlap those of several elements. The operations are those of [`slopes`](super::slopes), to the bit.
 #[inline(always)]
-pub(crate) fn slopes_from_above<I: Inversion<T>, T: Real, const N: usize>(
+pub(super) fn slopes_from_above<I: Inversion<T>, T: Real, const N: usize>(
     nu: &[I::Wide; N],
     [u, across]: &mut [[T; N]; 2],
 ) {
