@@ -206,7 +206,8 @@ pub trait Ndf {
         let m: [Self::Scalar; 3] = wm.into();
         let facing = positive_part(dot(w.into(), m));
         let density = self.d_times(wm, Self::Scalar::ONE, [facing, sigma]);
-        if sigma <= Self::Scalar::ZERO || m[2] < Self::Scalar::ZERO { Self::Scalar::ZERO } else { density }
+        let density = if m[2] < Self::Scalar::ZERO { Self::Scalar::ZERO } else { density };
+        if sigma <= Self::Scalar::ZERO { Self::Scalar::ZERO } else { density }
     }
 }
 
