@@ -54,7 +54,8 @@ use crate::vector::below_one;
 ///
 /// # References
 /// Beckmann and Spizzichino 1963; Smith 1967; Walter, Marschner, Li and Torrance 2007, Eq. 25; Heitz 2014, §5.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[doc(alias = "Gaussian")]
 pub struct Beckmann;
 
 shape_invariant!(Beckmann);

@@ -74,18 +74,26 @@ pub enum Error {
     RefractiveIndex {
         /// The index given.
         value: f64,
+        /// The largest index this constructor accepts.
+        largest: f64,
     },
     /// An extinction coefficient k is negative, not finite, or above what the constructor covers.
     Extinction {
         /// The coefficient given.
         value: f64,
+        /// The largest coefficient this constructor accepts.
+        largest: f64,
     },
-    /// A roughness, sharpness or anisotropy parameter of an artist's map is outside its domain.
+    /// A parameter, such as the roughness of an artist's map, is not a number within its domain.
     Parameter {
         /// The name of the parameter.
         name: &'static str,
         /// The value given.
         value: f64,
+        /// The smallest value of the domain.
+        smallest: f64,
+        /// The largest value of the domain.
+        largest: f64,
     },
 }
 
@@ -114,13 +122,15 @@ impl fmt::Display for Error {
             Self::Mesh { triangle } => write!(f, "triangle {triangle} names a vertex that does not exist"),
             Self::Stretch { value } => write!(f, "stretch = {value} is not inside (-1, 1)"),
             Self::Reflectance { value } => write!(f, "reflectance = {value} is not a number in [0, 1]"),
-            Self::RefractiveIndex { value } => {
-                write!(f, "refractive index = {value} is not positive, or too large")
+            Self::RefractiveIndex { value, largest } => {
+                write!(f, "refractive index = {value} is not a positive number up to {largest:e}")
             }
-            Self::Extinction { value } => {
-                write!(f, "extinction coefficient = {value} is negative, or too large")
+            Self::Extinction { value, largest } => {
+                write!(f, "extinction coefficient = {value} is not a number in [0, {largest:e}]")
             }
-            Self::Parameter { name, value } => write!(f, "{name} = {value} is outside its domain"),
+            Self::Parameter { name, value, smallest, largest } => {
+                write!(f, "{name} = {value} is not a number in [{smallest}, {largest}]")
+            }
         }
     }
 }

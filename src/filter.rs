@@ -46,18 +46,18 @@
 //! let (eye, light) = (Vec3::new(0.0, 0.0, 5.0), Vec3::new(0.3, 0.0, 6.0));
 //! // The ray hits the pole of the unit ball about the origin.
 //! let (point, normal, distance) = (Vec3::Z, Vec3::Z, 4.0);
-//! let frame = Frame::<f32>::from_normal(normal);
+//! let frame = Frame::from_normal(normal);
 //! // How far the point moves per pixel, and how the normal turns with it.
-//! let ray = RayDifferential::<f32>::pinhole(-Vec3::Z, Vec3::X / 100.0, Vec3::Y / 100.0);
+//! let ray = RayDifferential::pinhole(-Vec3::Z, Vec3::X / 100.0, Vec3::Y / 100.0);
 //! let [du, dv] = ray.onto_plane(-Vec3::Z, distance, normal).map(|point| {
 //!     let normal = Curvature::sphere(1.0).normal_step(&frame, point);
 //!     Motion { point, normal, ..Motion::default() }
 //! });
-//! let half = HalfVector::<f32>::new(&frame, point, eye, light);
+//! let half = HalfVector::new(&frame, point, eye, light);
 //! let footprint = half.slope_footprint(&du, &dv).clamped(1.0);
 //! // What eval finds at the centre of the pixel, and what there is in the pixel.
 //! let [wi, wo] = [light, eye].map(|end| frame.to_local((end - point).normalize()));
-//! let (at_centre, in_pixel) = (metal.eval(wi, wo), metal.eval_over(wi, wo, &footprint));
+//! let (at_centre, in_pixel) = (metal.eval(wi, wo), metal.eval_over(wi, wo, footprint));
 //! assert!(at_centre < in_pixel && in_pixel < 0.9 / (4.0 * core::f32::consts::PI * 0.01 * 0.01));
 //! # Ok::<(), microsurface::Error>(())
 //! ```

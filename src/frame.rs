@@ -2,7 +2,7 @@
 //!
 //! Everywhere else in the crate directions are in the local frame: x and y along the tangents, z along the normal.
 
-use crate::Real;
+use crate::real::{Real, Vector};
 use crate::vector::{dot, normalized};
 
 /// An orthonormal shading frame: x and y tangents, z the normal.
@@ -10,7 +10,7 @@ use crate::vector::{dot, normalized};
 /// # Example
 /// ```
 /// use microsurface::{frame::Frame, glam::Vec3};
-/// let frame = Frame::<f32>::from_normal(Vec3::new(0.0, 0.6, 0.8));
+/// let frame = Frame::from_normal(Vec3::new(0.0, 0.6, 0.8));
 /// let world = Vec3::new(0.2, -0.3, 0.9);
 /// let local = frame.to_local(world);
 /// assert!((frame.to_world(local) - world).length() < 1e-6);
@@ -35,7 +35,8 @@ impl<T: Real> Frame<T> {
     /// revisited", JCGT 6(1).
     #[inline]
     #[must_use]
-    pub fn from_normal(normal: T::Vec3) -> Self {
+    pub fn from_normal(normal: impl Vector<3, Scalar = T>) -> Self {
+        let normal = T::Vec3::from(normal.components());
         let [nx, ny, nz]: [T; 3] = normal.into();
         let sign = T::ONE.copysign(nz);
         let a = -T::ONE / (sign + nz);
@@ -56,7 +57,12 @@ impl<T: Real> Frame<T> {
     /// of [`from_normal`](Self::from_normal) comes back.
     #[inline]
     #[must_use]
-    pub fn from_normal_and_tangent(normal: T::Vec3, tangent: T::Vec3) -> Self {
+    pub fn from_normal_and_tangent(
+        normal: impl Vector<3, Scalar = T>,
+        tangent: impl Vector<3, Scalar = T>,
+    ) -> Self {
+        let normal = T::Vec3::from(normal.components());
+        let tangent = T::Vec3::from(tangent.components());
         let (n, t): ([T; 3], [T; 3]) = (normal.into(), tangent.into());
         // Over its largest component, whose inverse may overflow: the square of its length is a number.
         let largest = t[0].abs().max(t[1].abs()).max(t[2].abs());
@@ -113,7 +119,8 @@ impl<T: Real> Frame<T> {
 /// m.z = 0 → infinite or NaN: a vertical facet has no slope.
 #[inline]
 #[must_use]
-pub fn normal_to_slope<T: Real>(m: T::Vec3) -> T::Vec2 {
+pub fn normal_to_slope<T: Real>(m: impl Vector<3, Scalar = T>) -> T::Vec2 {
+    let m = T::Vec3::from(m.components());
     let [x, y, z]: [T; 3] = m.into();
     [-x / z, -y / z].into()
 }
@@ -127,13 +134,14 @@ pub fn normal_to_slope<T: Real>(m: T::Vec3) -> T::Vec2 {
 /// ```
 /// use microsurface::{frame::{normal_to_slope, slope_to_normal}, glam::Vec2};
 /// let slope = Vec2::new(0.75, 0.0);
-/// let normal = slope_to_normal::<f32>(slope);
+/// let normal = slope_to_normal(slope);
 /// assert!((normal.x + 0.6).abs() < 1e-6 && (normal.z - 0.8).abs() < 1e-6);
-/// assert!((normal_to_slope::<f32>(normal) - slope).length() < 1e-6);
+/// assert!((normal_to_slope(normal) - slope).length() < 1e-6);
 /// ```
 #[inline]
 #[must_use]
-pub fn slope_to_normal<T: Real>(slope: T::Vec2) -> T::Vec3 {
+pub fn slope_to_normal<T: Real>(slope: impl Vector<2, Scalar = T>) -> T::Vec3 {
+    let slope = T::Vec2::from(slope.components());
     let [x, y]: [T; 2] = slope.into();
     let largest = x.abs().max(y.abs()).max(T::ONE);
     normalized([-x / largest, -y / largest, T::ONE / largest]).into()
@@ -142,7 +150,9 @@ pub fn slope_to_normal<T: Real>(slope: T::Vec2) -> T::Vec3 {
 /// The mirror image of `w` about the unit normal `m`: 2 (w·m) m − w.
 #[inline]
 #[must_use]
-pub fn reflected<T: Real>(w: T::Vec3, m: T::Vec3) -> T::Vec3 {
+pub fn reflected<T: Real>(w: impl Vector<3, Scalar = T>, m: impl Vector<3, Scalar = T>) -> T::Vec3 {
+    let w = T::Vec3::from(w.components());
+    let m = T::Vec3::from(m.components());
     let (v, n): ([T; 3], [T; 3]) = (w.into(), m.into());
     let twice = T::TWO * dot(v, n);
     [twice * n[0] - v[0], twice * n[1] - v[1], twice * n[2] - v[2]].into()

@@ -3,72 +3,10 @@
 //! Each takes its parameters as a [`Spectrum`], a scalar or a glam vector of three, and returns the same; a
 //! material pays for three channels only where it has three.
 
-use crate::Real;
 use crate::elementary::exact::{two_product, two_sum};
 use crate::error::Error;
-
-/// A reflectance: one number, or three.
-pub trait Spectrum: Copy + core::fmt::Debug + PartialEq + Send + Sync + 'static {
-    /// f32 or f64.
-    type Scalar: Real;
-
-    /// The same value in every channel.
-    #[must_use]
-    fn splat(value: Self::Scalar) -> Self;
-
-    /// `f` of every channel.
-    #[must_use]
-    fn map(self, f: impl FnMut(Self::Scalar) -> Self::Scalar) -> Self;
-
-    /// `f` of every channel of two.
-    #[must_use]
-    fn zip(self, other: Self, f: impl FnMut(Self::Scalar, Self::Scalar) -> Self::Scalar) -> Self;
-
-    /// Every channel times a number.
-    #[inline(always)]
-    #[must_use]
-    fn scaled(self, factor: Self::Scalar) -> Self {
-        self.map(|channel| channel * factor)
-    }
-}
-
-macro_rules! spectrum {
-    ($scalar:ident, $vec3:ident) => {
-        impl Spectrum for $scalar {
-            type Scalar = $scalar;
-            #[inline(always)]
-            fn splat(value: $scalar) -> Self {
-                value
-            }
-            #[inline(always)]
-            fn map(self, mut f: impl FnMut($scalar) -> $scalar) -> Self {
-                f(self)
-            }
-            #[inline(always)]
-            fn zip(self, other: Self, mut f: impl FnMut($scalar, $scalar) -> $scalar) -> Self {
-                f(self, other)
-            }
-        }
-
-        impl Spectrum for glam::$vec3 {
-            type Scalar = $scalar;
-            #[inline(always)]
-            fn splat(value: $scalar) -> Self {
-                Self::splat(value)
-            }
-            #[inline(always)]
-            fn map(self, f: impl FnMut($scalar) -> $scalar) -> Self {
-                self.to_array().map(f).into()
-            }
-            #[inline(always)]
-            fn zip(self, other: Self, mut f: impl FnMut($scalar, $scalar) -> $scalar) -> Self {
-                Self::new(f(self.x, other.x), f(self.y, other.y), f(self.z, other.z))
-            }
-        }
-    };
-}
-spectrum!(f32, Vec3);
-spectrum!(f64, DVec3);
+use crate::real::Real;
+pub use crate::real::Spectrum;
 
 /// A Fresnel reflectance as a function of the angle between a direction and a facet's normal.
 pub trait Fresnel {
@@ -88,6 +26,21 @@ pub trait Fresnel {
 
 /// The scalar of a Fresnel term's output.
 pub type Scalar<F> = <<F as Fresnel>::Output as Spectrum>::Scalar;
+
+macro_rules! forwarded {
+    ($($pointer:ty),*) => {
+        $(impl<F: Fresnel + ?Sized> Fresnel for $pointer {
+            type Output = F::Output;
+            #[inline(always)]
+            fn reflectance(&self, cos: Scalar<F>) -> F::Output {
+                (**self).reflectance(cos)
+            }
+        })*
+    };
+}
+forwarded!(&F);
+#[cfg(feature = "alloc")]
+forwarded!(alloc::boxed::Box<F>, alloc::sync::Arc<F>);
 
 /// A facet that reflects everything: for furnace tests and mirrors without colour.
 ///
@@ -189,6 +142,7 @@ impl<S: Spectrum> Fresnel for Schlick<S> {
 /// # References
 /// Born and Wolf, "Principles of Optics", §1.5; the form in g of Walter 2007, Eq. 22.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[doc(alias("glass", "ior"))]
 pub struct Dielectric<S> {
     eta: S,
 }
@@ -199,7 +153,8 @@ impl<S: Spectrum> Dielectric<S> {
     /// # Errors
     /// [`Error::RefractiveIndex`] unless every channel is positive and finite.
     pub fn new(eta: S) -> Result<Self, Error> {
-        check(eta, |eta| eta > S::Scalar::ZERO, |value| Error::RefractiveIndex { value })?;
+        let largest = S::Scalar::MAX.to_f64();
+        check(eta, |eta| eta > S::Scalar::ZERO, |value| Error::RefractiveIndex { value, largest })?;
         Ok(Self { eta })
     }
 
@@ -318,8 +273,16 @@ impl<S: Spectrum> Conductor<S> {
     /// mirror is [`Perfect`].
     pub fn new(n: S, k: S) -> Result<Self, Error> {
         let (zero, largest) = (S::Scalar::ZERO, S::Scalar::lit(1e9));
-        check(n, |n| n > zero && n <= largest, |value| Error::RefractiveIndex { value })?;
-        check(k, |k| k >= zero && k <= largest, |value| Error::Extinction { value })?;
+        check(
+            n,
+            |n| n > zero && n <= largest,
+            |value| Error::RefractiveIndex { value, largest: largest.to_f64() },
+        )?;
+        check(
+            k,
+            |k| k >= zero && k <= largest,
+            |value| Error::Extinction { value, largest: largest.to_f64() },
+        )?;
         Ok(Self { n, k })
     }
 

@@ -39,7 +39,8 @@ use crate::vector::below_one;
 /// # References
 /// Trowbridge and Reitz 1975; Walter, Marschner, Li and Torrance 2007, Eq. 33; Heitz 2014; visible normals by
 /// spherical caps: Dupuy and Benyoub 2023, doi:10.1111/cgf.14867.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[doc(alias = "TrowbridgeReitz")]
 pub struct Ggx;
 
 shape_invariant!(Ggx);

@@ -74,6 +74,23 @@ pub struct Gtr<T: Real, K> {
     masking: K,
 }
 
+/// The usual surface of GTR: what [`Gtr::isotropic`] and, under other maps, [`Gtr::anisotropic`] and
+/// [`Gtr::rotated`] return.
+///
+/// # Example
+/// ```
+/// use microsurface::{Gtr, Linear, gtr::GtrSurface};
+/// struct Coat {
+///     surface: GtrSurface<f32>,
+///     turned: GtrSurface<f32, Linear<f32>>,
+/// }
+/// let surface = Gtr::isotropic(0.2, 1.0)?;
+/// let coat = Coat { surface, turned: Gtr::rotated(0.1, 0.4, 0.5, 1.0)? };
+/// # let _ = coat;
+/// # Ok::<(), microsurface::Error>(())
+/// ```
+pub type GtrSurface<T, M = Isotropic<T>> = Microsurface<Gtr<T, mixture::Mixture<T, 8>>, M>;
+
 impl<T: Real, K> Gtr<T, K> {
     /// α, the width of the peak.
     #[inline]

@@ -2,7 +2,7 @@
 
 use crate::Real;
 use crate::error::Error;
-use crate::map::{Linear, Map, RoughnessMatrix, moved};
+use crate::map::{AxisAligned, Isotropic, Linear, Map, RoughnessMatrix, moved};
 use crate::ndf::staged::{Forms, Solver, StagedVndf};
 use crate::ndf::{Ndf, SampleNdf, SampleVndf, Vec2, Vec3};
 use crate::profile::staged::StagedProfile;
@@ -65,6 +65,22 @@ impl<P, M: Map> Microsurface<P, M> {
     pub fn roughness_matrix(&self) -> Result<RoughnessMatrix<M::Scalar>, Error> {
         let [[r11, r12], [_, r22]] = self.map().inverse();
         Ok(RoughnessMatrix::of_factor([r11, r12, r22]))
+    }
+}
+
+/// The same surface under the most general map, for tables of surfaces of one type.
+impl<P, T: Real> From<Microsurface<P, Isotropic<T>>> for Microsurface<P, Linear<T>> {
+    #[inline]
+    fn from(surface: Microsurface<P, Isotropic<T>>) -> Self {
+        Self::new(surface.profile, surface.map.into())
+    }
+}
+
+/// The same surface under the most general map, for tables of surfaces of one type.
+impl<P, T: Real> From<Microsurface<P, AxisAligned<T>>> for Microsurface<P, Linear<T>> {
+    #[inline]
+    fn from(surface: Microsurface<P, AxisAligned<T>>) -> Self {
+        Self::new(surface.profile, surface.map.into())
     }
 }
 

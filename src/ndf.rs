@@ -49,6 +49,7 @@ pub type Vec3<N> = <<N as Ndf>::Scalar as Real>::Vec3;
 /// let w = Vec3::new(0.8, 0.0, 0.6);
 /// assert!((Blend.g1(w, Vec3::Z) - 1.0 / (1.0 + Blend.lambda(w))).abs() < 1e-6);
 /// ```
+#[doc(alias("normal distribution function", "microfacet", "masking", "Smith"))]
 pub trait Ndf {
     /// f32 or f64.
     type Scalar: Real;

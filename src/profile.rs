@@ -40,7 +40,7 @@ pub trait Profile<T: Real>: Copy {
     /// σ_P(s², z) for z ≥ 0.
     fn sigma_above(&self, s2: T, z: T) -> T;
 
-    /// zi zo/G2 times [`cosine_scale`](crate::ndf::cosine_scale), from (s², z) of two directions above the horizon.
+    /// zi zo/G2 times 2⁴⁰ (f32) or 2²⁷⁰ (f64), from (s², z) of two directions above the horizon.
     #[inline(always)]
     fn masked_cosines(&self, [s2_i, z_i]: [T; 2], [s2_o, z_o]: [T; 2]) -> T {
         masked_cosines(z_i, z_o, self.sigma_above(s2_i, z_i), self.sigma_above(s2_o, z_o))

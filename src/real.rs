@@ -17,6 +17,7 @@ compile_error!("microsurface needs one of the features `std` (the default) or `l
 /// which costs nothing once compiled.
 pub trait Real:
     Bits
+    + Spectrum<Scalar = Self>
     + Copy
     + Debug
     + Display
@@ -37,9 +38,23 @@ pub trait Real:
     + DivAssign
 {
     /// glam's two-component vector of this scalar.
-    type Vec2: Copy + Debug + PartialEq + Send + Sync + 'static + From<[Self; 2]> + Into<[Self; 2]>;
+    type Vec2: Vector<2, Scalar = Self>
+        + Debug
+        + PartialEq
+        + Send
+        + Sync
+        + 'static
+        + From<[Self; 2]>
+        + Into<[Self; 2]>;
     /// glam's three-component vector of this scalar.
-    type Vec3: Copy + Debug + PartialEq + Send + Sync + 'static + From<[Self; 3]> + Into<[Self; 3]>;
+    type Vec3: Vector<3, Scalar = Self>
+        + Debug
+        + PartialEq
+        + Send
+        + Sync
+        + 'static
+        + From<[Self; 3]>
+        + Into<[Self; 3]>;
     /// glam's 2×2 matrix of this scalar, stored by columns.
     type Mat2: Copy + Debug + PartialEq + Send + Sync + 'static;
     /// The scalar in which ill-conditioned arguments are formed: f64 for both.
@@ -107,6 +122,46 @@ pub trait Real:
     #[must_use]
     fn matrix(columns: [[Self; 2]; 2]) -> Self::Mat2;
 }
+
+/// A vector of `N` components that says of which scalar it is, so that calls need not name it: a
+/// glam vector, or an array. Sealed.
+pub trait Vector<const N: usize>: Copy + sealed::Sealed {
+    /// f32 or f64.
+    type Scalar: Real;
+    /// The components.
+    #[must_use]
+    fn components(self) -> [Self::Scalar; N];
+}
+
+mod sealed {
+    pub trait Sealed {}
+}
+
+impl<T: Real, const N: usize> sealed::Sealed for [T; N] {}
+
+impl<T: Real, const N: usize> Vector<N> for [T; N] {
+    type Scalar = T;
+    #[inline(always)]
+    fn components(self) -> Self {
+        self
+    }
+}
+
+macro_rules! vector {
+    ($t:ident, $($vec:ident $n:literal),*) => {
+        $(impl sealed::Sealed for glam::$vec {}
+
+        impl Vector<$n> for glam::$vec {
+            type Scalar = $t;
+            #[inline(always)]
+            fn components(self) -> [$t; $n] {
+                self.into()
+            }
+        })*
+    };
+}
+vector!(f32, Vec2 2, Vec3 3, Vec4 4);
+vector!(f64, DVec2 2, DVec3 3, DVec4 4);
 
 /// The number of `B` nearest to `x`: nothing, once compiled, where `A` is `B`.
 #[inline(always)]
@@ -196,6 +251,85 @@ macro_rules! real {
 }
 real!(f32, Vec2, Vec3, Mat2, sqrtf);
 real!(f64, DVec2, DVec3, DMat2, sqrt);
+
+/// A reflectance: one number, or three.
+pub trait Spectrum: Copy + Send + Sync + 'static {
+    /// f32 or f64.
+    type Scalar: Real;
+
+    /// The same value in every channel.
+    #[must_use]
+    fn splat(value: Self::Scalar) -> Self;
+
+    /// `f` of every channel.
+    #[must_use]
+    fn map(self, f: impl FnMut(Self::Scalar) -> Self::Scalar) -> Self;
+
+    /// `f` of every channel of two.
+    #[must_use]
+    fn zip(self, other: Self, f: impl FnMut(Self::Scalar, Self::Scalar) -> Self::Scalar) -> Self;
+
+    /// Every channel times a number.
+    #[inline(always)]
+    #[must_use]
+    fn scaled(self, factor: Self::Scalar) -> Self {
+        self.map(|channel| channel * factor)
+    }
+}
+
+macro_rules! spectrum {
+    ($scalar:ident, $vec3:ident) => {
+        impl Spectrum for $scalar {
+            type Scalar = $scalar;
+            #[inline(always)]
+            fn splat(value: $scalar) -> Self {
+                value
+            }
+            #[inline(always)]
+            fn map(self, mut f: impl FnMut($scalar) -> $scalar) -> Self {
+                f(self)
+            }
+            #[inline(always)]
+            fn zip(self, other: Self, mut f: impl FnMut($scalar, $scalar) -> $scalar) -> Self {
+                f(self, other)
+            }
+        }
+
+        impl<const N: usize> Spectrum for [$scalar; N] {
+            type Scalar = $scalar;
+            #[inline(always)]
+            fn splat(value: $scalar) -> Self {
+                [value; N]
+            }
+            #[inline(always)]
+            fn map(self, f: impl FnMut($scalar) -> $scalar) -> Self {
+                self.map(f)
+            }
+            #[inline(always)]
+            fn zip(self, other: Self, mut f: impl FnMut($scalar, $scalar) -> $scalar) -> Self {
+                core::array::from_fn(|i| f(self[i], other[i]))
+            }
+        }
+
+        impl Spectrum for glam::$vec3 {
+            type Scalar = $scalar;
+            #[inline(always)]
+            fn splat(value: $scalar) -> Self {
+                Self::splat(value)
+            }
+            #[inline(always)]
+            fn map(self, f: impl FnMut($scalar) -> $scalar) -> Self {
+                self.to_array().map(f).into()
+            }
+            #[inline(always)]
+            fn zip(self, other: Self, mut f: impl FnMut($scalar, $scalar) -> $scalar) -> Self {
+                Self::new(f(self.x, other.x), f(self.y, other.y), f(self.z, other.z))
+            }
+        }
+    };
+}
+spectrum!(f32, Vec3);
+spectrum!(f64, DVec3);
 
 /// Functions of f64 that only constructors call: what a material fixes once.
 pub(crate) mod construction {

@@ -9,7 +9,11 @@ use crate::error::Error;
 
 fn parameter<T: Real>(name: &'static str, value: T, smallest: f64, largest: f64) -> Result<T, Error> {
     let v = value.to_f64();
-    if v >= smallest && v <= largest { Ok(value) } else { Err(Error::Parameter { name, value: v }) }
+    if v >= smallest && v <= largest {
+        Ok(value)
+    } else {
+        Err(Error::Parameter { name, value: v, smallest, largest })
+    }
 }
 
 /// x limited to [`smallest`, `largest`]; NaN becomes `smallest`.
@@ -27,6 +31,7 @@ fn within<T: Real>(x: T, smallest: f64, largest: f64) -> T {
 /// # References
 /// Burley 2012, "Physically-based shading at Disney", §5.4; also Unreal, Filament, Bevy, OpenPBR.
 #[inline]
+#[doc(alias("disney", "perceptual roughness"))]
 pub fn alpha_burley2012<T: Real>(roughness: T) -> Result<T, Error> {
     let r = parameter("roughness", roughness, 0.0, 1.0)?;
     checked(r * r)

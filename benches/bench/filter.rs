@@ -48,8 +48,8 @@ fn pixels<T: Real>() -> Vec<Pixel<T>> {
         let [a, b] = [(); 2].map(|()| rng.random_range(-1.0..1.0));
         let beside = turned(&mut rng, 0.01);
         let slope = [0, 1].map(|i| T::lit(a * u[i] + b * v[i] + beside[i])).into();
-        let footprint = Footprint::new(u.map(T::lit).into(), v.map(T::lit).into());
-        let covariance = footprint.covariance(T::lit(covariance::VARIANCE_OF_BOX));
+        let footprint = Footprint::new(u.map(T::lit), v.map(T::lit));
+        let covariance = footprint.covariance(T::lit(covariance::variance_of_box::<f64>()));
         Pixel { slope, footprint, covariance }
     };
     (0..CALLS).map(|_| pixel()).collect()
@@ -115,7 +115,7 @@ fn gaussians<T: Elementary>(criterion: &mut Criterion) {
     calls(group, ("gaussian", "make+p22"), &ggx, &pixels, |s, p| {
         p22_of(gaussian::filtered(s, p.covariance), p.slope)
     });
-    calls(group, ("gaussian-integral", "p22"), &ggx, &pixels, |s, p| gaussian::p22(s, p.covariance, p.slope));
+    calls(group, ("gaussian-integral", "p22"), &ggx, &pixels, |s, p| gaussian::p22(s, p.slope, p.covariance));
 
     // Made before, one for each material.
     let made: Vec<_> = ggx.iter().zip(&pixels).filter_map(|(s, p)| s.filtered(p.covariance).ok()).collect();
@@ -207,7 +207,7 @@ fn quads<T: Real>() -> Vec<[Frame<T>; 4]> {
         [(); 4].map(|()| {
             let normal = base.map(|c| c + bend * rng.random_range(-1.0..1.0));
             let length = normal.iter().map(|c| c * c).sum::<f64>().sqrt();
-            Frame::from_normal(normal.map(|c| T::lit(c / length)).into())
+            Frame::from_normal(normal.map(|c| T::lit(c / length)))
         })
     };
     (0..CALLS).map(|_| quad()).collect()
@@ -232,7 +232,7 @@ fn footprints<T: Real>(criterion: &mut Criterion) {
         let [eye, light] = [(); 2].map(|()| direction::<T>(&mut rng).map(|c| T::lit(5.0) * c).into());
         let bend = 0.01 * rng.random_range(0.1..1.0);
         Shaded {
-            frame: Frame::from_normal([T::ZERO, T::ZERO, T::ONE].into()),
+            frame: Frame::from_normal([T::ZERO, T::ZERO, T::ONE]),
             eye,
             light,
             curvature: Curvature::sphere(T::lit(rng.random_range(0.1..10.0))),

@@ -116,10 +116,10 @@ fn surfaces(arguments: &Rc<[Arguments<f32>]>) -> Result<Vec<Row>, Error> {
     let anisotropic = Ggx::anisotropic(0.2_f32, 0.4)?;
     let matrix = Mat2::from_cols_array_2d(&MATRIX.map(|column| column.map(f32::lit)));
     let turned = RoughnessMatrix::rotated(0.2_f32, 0.4, 0.5)?;
-    let footprint = Footprint::<f32>::new(Vec2::new(0.1, 0.02), Vec2::new(-0.03, 0.06));
+    let footprint = Footprint::new(Vec2::new(0.1, 0.02), Vec2::new(-0.03, 0.06));
     let covariance: Covariance<f32> = footprint.covariance(0.25);
     let chrome = RoughConductor::new(isotropic, Schlick::new(0.9_f32)?);
-    let over = Kernel::of_calls(chrome, arguments, move |f, a| f.eval_over(a.wi, a.wo, &footprint));
+    let over = Kernel::of_calls(chrome, arguments, move |f, a| f.eval_over(a.wi, a.wo, footprint));
     Ok(vec![
         eval("`isotropic`", isotropic, arguments),
         eval("`filtered_isotropic`: isotropic", isotropic.filtered_isotropic(0.01)?, arguments),

@@ -89,7 +89,7 @@ impl<'a> Scene<'a> {
 fn vertex(Object { mesh, cover }: &Object, hit: &Hit) -> Vertex {
     let corners = mesh.triangles[hit.material];
     let barycentric = barycentric(corners.map(|i| mesh.positions[i]), hit.position);
-    let tangent = (0..3).map(|i| mesh.tangents[corners[i]] * barycentric[i]).sum();
+    let tangent: Vec3 = (0..3).map(|i| mesh.tangents[corners[i]] * barycentric[i]).sum();
     let uv = (0..3).map(|i| mesh.uv[corners[i]] * barycentric[i]).sum();
     Vertex {
         frame: Frame::from_normal_and_tangent(hit.shading_normal, tangent),

@@ -3,7 +3,7 @@
 use microsurface::bsdf::RoughConductor;
 use microsurface::filter::MeanOverParallelogram;
 use microsurface::filter::covariance::{
-    LARGEST_KERNEL, VARIANCE_KAPLANYAN2016, VARIANCE_OF_BOX, VARIANCE_TOKUYOSHI2021,
+    largest_kernel, variance_kaplanyan2016, variance_of_box, variance_tokuyoshi2021,
 };
 use microsurface::filter::deferred::{self, Bound, Kernel};
 use microsurface::filter::{Covariance, Footprint, gaussian, projected, rectangle};
@@ -64,40 +64,40 @@ fn forward<P: MeanOverParallelogram<f32> + ShapeInvariant + 'static>(surface: Su
     let unfiltered = RoughConductor::new(surface, fresnel());
     vec![
         method(UNFILTERED, move |p| unfiltered.eval(p.wi, p.wo)),
-        filtered(SLOPES, surface, |p| slopes(&p.quad).covariance(VARIANCE_KAPLANYAN2016 as f32)),
-        filtered(BOX, surface, |p| slopes(&p.quad).covariance(VARIANCE_OF_BOX as f32)),
+        filtered(SLOPES, surface, |p| slopes(&p.quad).covariance(variance_kaplanyan2016())),
+        filtered(BOX, surface, |p| slopes(&p.quad).covariance(variance_of_box())),
         filtered("slopes, bounds, 1/4", surface, |p| {
             slopes(&p.quad)
-                .covariance_of_bounds(VARIANCE_KAPLANYAN2016 as f32)
-                .clamped(0.5 * LARGEST_KERNEL as f32)
+                .covariance_of_bounds(variance_kaplanyan2016())
+                .clamped(0.5 * largest_kernel::<f32>())
         }),
         method(RECTANGLE, move |p| {
             let half_extents = p.quad.slopes.clamped_extents(1.0) * 0.5;
             averaged(&surface, rectangle::mean_p22(&surface, p.slope, half_extents), p)
         }),
         parallelogram(PARALLELOGRAM, surface, |p| slopes(&p.quad)),
-        filtered(PROJECTED, surface, |p| p.quad.projected.covariance(VARIANCE_KAPLANYAN2016 as f32)),
+        filtered(PROJECTED, surface, |p| p.quad.projected.covariance(variance_kaplanyan2016())),
     ]
 }
 
 /// What only GGX has or needs: the filter of projected space, and the Gaussian one that keeps its tail.
 fn only_ggx(surface: Surface<Ggx>) -> Vec<Method> {
-    let variance = VARIANCE_TOKUYOSHI2021 as f32;
+    let variance = variance_tokuyoshi2021::<f32>();
     vec![
         method(PROJECTED_2021, move |p| {
             reflected(projected::filtered(&surface, p.quad.projected, variance), p)
         }),
         parallelogram("parallelogram of m.xy", surface, |p| p.quad.projected),
         method("GGX * Gaussian of two, 1/12", move |p| {
-            let kernel = slopes(&p.quad).covariance(VARIANCE_OF_BOX as f32);
+            let kernel = slopes(&p.quad).covariance(variance_of_box());
             reflected(gaussian::filtered_by_two(&surface, kernel), p)
         }),
         method(GAUSSIAN, move |p| {
-            let kernel = slopes(&p.quad).covariance(VARIANCE_OF_BOX as f32);
+            let kernel = slopes(&p.quad).covariance(variance_of_box());
             reflected(gaussian::filtered(&surface, kernel), p)
         }),
         method(ANALYTIC_GAUSSIAN, move |p| {
-            let kernel = slopes(&p.analytic).covariance(VARIANCE_OF_BOX as f32);
+            let kernel = slopes(&p.analytic).covariance(variance_of_box());
             reflected(gaussian::filtered(&surface, kernel), p)
         }),
     ]
@@ -133,10 +133,10 @@ fn deferred<P: Profile<f32> + 'static>(surface: Surface<P>) -> Vec<Method> {
 /// The same filters from analytic derivatives.
 fn analytic<P: MeanOverParallelogram<f32> + ShapeInvariant + 'static>(surface: Surface<P>) -> Vec<Method> {
     vec![
-        filtered(ANALYTIC_SLOPES, surface, |p| slopes(&p.analytic).covariance(VARIANCE_KAPLANYAN2016 as f32)),
-        filtered(ANALYTIC_BOX, surface, |p| slopes(&p.analytic).covariance(VARIANCE_OF_BOX as f32)),
+        filtered(ANALYTIC_SLOPES, surface, |p| slopes(&p.analytic).covariance(variance_kaplanyan2016())),
+        filtered(ANALYTIC_BOX, surface, |p| slopes(&p.analytic).covariance(variance_of_box())),
         filtered("analytic: projected 2017, 1/12", surface, |p| {
-            p.analytic.projected.covariance(VARIANCE_OF_BOX as f32)
+            p.analytic.projected.covariance(variance_of_box())
         }),
         parallelogram(ANALYTIC_PARALLELOGRAM, surface, |p| slopes(&p.analytic)),
     ]
@@ -163,7 +163,7 @@ fn parallelogram<P: MeanOverParallelogram<f32> + 'static>(
     footprint: impl Fn(&Pixel) -> Footprint<f32> + 'static,
 ) -> Method {
     let material = RoughConductor::new(surface, fresnel());
-    method(name, move |p| material.eval_over(p.wi, p.wo, &footprint(p)))
+    method(name, move |p| material.eval_over(p.wi, p.wo, footprint(p)))
 }
 
 /// The BRDF F D̃ G2/(4 zi zo), where D̃ = P̃22/m.z⁴ has the mean of P22 over the pixel.

@@ -72,7 +72,7 @@ fn point(scene: &Scene, camera: &Camera, region: Region, [x, y]: [usize; 2]) -> 
         irradiance: lit.irradiance as f32,
         diffuse: lit.diffuse as f32,
         m,
-        slope: normal_to_slope::<f32>(m),
+        slope: normal_to_slope(m),
         // Until the other pixels of the quad are known.
         quad: analytic,
         analytic,
@@ -98,7 +98,7 @@ fn analytic_steps(scene: &Scene, camera: &Camera, place: DVec2, size: f64, hit: 
     let (direction, derivatives) = camera.direction(place);
     let [direction_du, direction_dv] = derivatives.map(|d| d * size);
     let distance = hit.position.distance(camera.eye);
-    let moves = RayDifferential::<f64>::pinhole(direction, direction_du, direction_dv).onto_plane(
+    let moves = RayDifferential::pinhole(direction, direction_du, direction_dv).onto_plane(
         direction.normalize(),
         distance,
         hit.geometric_normal,

@@ -58,7 +58,7 @@ impl<'a, T: Real> InRange<'a, T> {
 
 #[inline(always)]
 fn covariance<T: Real>([ux, uy, vx, vy]: [T; 4], variance: T) -> Covariance<T> {
-    Footprint::<T>::new([ux, uy].into(), [vx, vy].into()).covariance(variance)
+    Footprint::new([ux, uy], [vx, vy]).covariance(variance)
 }
 
 macro_rules! filtered {
@@ -91,15 +91,15 @@ filtered!(
     /// # Example
     /// ```
     /// use microsurface::batch::{Directions, Filtered, Footprints, NdfBatch, Varied};
-    /// use microsurface::filter::{Footprint, covariance::VARIANCE_OF_BOX};
+    /// use microsurface::filter::{Footprint, covariance::variance_of_box};
     /// use microsurface::{Beckmann, Ndf, glam::{Vec2, Vec3}};
     /// let surface = Beckmann::isotropic(0.01_f32)?;
     /// let footprints = Footprints { du_x: &[0.02, 0.0], du_y: &[0.0, 0.0], dv_x: &[0.01, 0.0], dv_y: &[0.01, 0.0] };
-    /// let filtered = Varied::new(&surface, Filtered::new(footprints, VARIANCE_OF_BOX as f32)?);
+    /// let filtered = Varied::new(&surface, Filtered::new(footprints, variance_of_box())?);
     /// let mut d = [0.0; 2];
     /// filtered.d_batch(Directions { x: &[0.0; 2], y: &[0.0; 2], z: &[1.0; 2] }, &mut d);
-    /// let footprint = Footprint::<f32>::new(Vec2::new(0.02, 0.0), Vec2::new(0.01, 0.01));
-    /// assert_eq!(d[0], surface.filtered(footprint.covariance(VARIANCE_OF_BOX as f32))?.d(Vec3::Z));
+    /// let footprint = Footprint::new(Vec2::new(0.02, 0.0), Vec2::new(0.01, 0.01));
+    /// assert_eq!(d[0], surface.filtered(footprint.covariance(variance_of_box()))?.d(Vec3::Z));
     /// # Ok::<(), microsurface::Error>(())
     /// ```
     Filtered

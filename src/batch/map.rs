@@ -20,7 +20,7 @@ use crate::batch::stages::{Body, without_normals};
 /// use microsurface::filter::{Footprint, deferred::{self, Bound, Kernel}};
 /// use microsurface::{Ggx, bsdf::RoughConductor, fresnel::Schlick};
 /// let footprints = Footprints { du_x: &[0.1_f32, 0.0], du_y: &[0.0, 0.1], dv_x: &[0.0, 0.1], dv_y: &[0.1, 0.0] };
-/// let footprint = |[ux, uy, vx, vy]: [f32; 4]| Footprint::<f32>::new([ux, uy].into(), [vx, vy].into());
+/// let footprint = |[ux, uy, vx, vy]: [f32; 4]| Footprint::new([ux, uy], [vx, vy]);
 /// let kernel = Kernel::tokuyoshi2021();
 /// let mut alpha = [0.0; 2];
 /// batch::map((&[0.01, 0.2][..], footprints), &mut alpha[..], |(alpha, steps)| {
@@ -33,7 +33,7 @@ use crate::batch::stages::{Body, without_normals};
 /// let wo = Directions { x: &[0.6; 2], y: &[0.0; 2], z: &[0.8; 2] };
 /// let mut f = [0.0; 2];
 /// batch::map((wi, wo, footprints), &mut f[..], |(wi, wo, steps)| {
-///     chrome.eval_over(wi.into(), wo.into(), &footprint(steps))
+///     chrome.eval_over(wi.into(), wo.into(), footprint(steps))
 /// });
 /// assert!(f[0] > 0.0 && f[0] < chrome.eval([-0.6, 0.0, 0.8].into(), [0.6, 0.0, 0.8].into()));
 /// # Ok::<(), microsurface::Error>(())

@@ -132,7 +132,7 @@ pub trait NdfBatch: Materials {
     where
         Self::Material: SampleNdf;
 
-    /// Normals visible from w, see [`SampleVndf::sample_vndf`].
+    /// Normals visible from w, see [`SampleVndf::sample_vndf`](crate::SampleVndf::sample_vndf).
     fn sample_vndf_batch(
         &self,
         w: Directions<'_, Self::Scalar>,

@@ -42,6 +42,7 @@ use crate::vector::dot;
 /// # References
 /// Torrance and Sparrow 1967; Walter, Marschner, Li and Torrance 2007, Eq. 20; Heitz 2014.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[doc(alias("bsdf", "brdf", "CookTorrance", "reflection", "metal"))]
 pub struct RoughConductor<N, F, S = VisibleNormals> {
     surface: N,
     fresnel: F,
@@ -203,8 +204,8 @@ where
     /// let chrome = RoughConductor::new(Ggx::isotropic(0.01_f32)?, Schlick::new(0.6_f32)?);
     /// let (wi, wo) = (Vec3::new(0.6, 0.0, 0.8), Vec3::new(-0.535, 0.0, 0.8448521));
     /// // The highlight is beside the centre of the pixel, and within it.
-    /// let pixel = Footprint::<f32>::new(Vec2::new(0.1, 0.0), Vec2::new(0.0, 0.1));
-    /// assert!(chrome.eval_over(wi, wo, &pixel) > 3.0 * chrome.eval(wi, wo));
+    /// let pixel = Footprint::new(Vec2::new(0.1, 0.0), Vec2::new(0.0, 0.1));
+    /// assert!(chrome.eval_over(wi, wo, pixel) > 3.0 * chrome.eval(wi, wo));
     /// # Ok::<(), microsurface::Error>(())
     /// ```
     ///
@@ -215,7 +216,7 @@ where
         &self,
         wi: <M::Scalar as Real>::Vec3,
         wo: <M::Scalar as Real>::Vec3,
-        footprint: &Footprint<M::Scalar>,
+        footprint: Footprint<M::Scalar>,
     ) -> F::Output {
         let half = Half::<M::Scalar>::new(wi.into(), wo.into());
         let [x, y, z] = half.h;

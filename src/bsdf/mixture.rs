@@ -73,7 +73,12 @@ impl<S, T: Real> UniformMixture<S, T> {
     #[inline]
     pub fn new(other: S, probability: T) -> Result<Self, Error> {
         if !(probability >= T::ZERO && probability < T::ONE) {
-            return Err(Error::Parameter { name: "probability", value: probability.to_f64() });
+            return Err(Error::Parameter {
+                name: "probability",
+                value: probability.to_f64(),
+                smallest: 0.0,
+                largest: 1.0,
+            });
         }
         // The second difference is exact (Sterbenz): both parts have the probability that their density says.
         let rest = T::ONE - probability;

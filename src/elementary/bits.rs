@@ -94,11 +94,13 @@ pub struct ErfInv {
 /// The operations on bits, the same for both but for the widths.
 macro_rules! bits {
     ($t:ident, $digits:literal, $half_mask:literal) => {
+        #[allow(clippy::cast_possible_truncation, reason = "the constants are numbers of either scalar")]
         #[inline(always)]
         fn exp2_of_integer(self) -> Self {
             // the sum's low bits are n + bias; the shift drops all others
             $t::from_bits((self + (Self::EXPONENT as $t)).to_bits() << $digits)
         }
+        #[allow(clippy::cast_possible_truncation, reason = "the constants are numbers of either scalar")]
         #[inline(always)]
         fn split_exponent(self) -> (Self, Self) {
             let bits = self.to_bits();

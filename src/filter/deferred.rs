@@ -30,7 +30,7 @@
 use crate::Real;
 use crate::error::Error;
 use crate::filter::Footprint;
-use crate::filter::covariance::{LARGEST_KERNEL, VARIANCE_KAPLANYAN2016, VARIANCE_TOKUYOSHI2021};
+use crate::filter::covariance::{largest_kernel, variance_kaplanyan2016, variance_tokuyoshi2021};
 use crate::frame::{Frame, normal_to_slope};
 use crate::vector::normalized;
 
@@ -59,7 +59,12 @@ impl<T: Real> Kernel<T> {
     pub fn new(variance: T, limit: T) -> Result<Self, Error> {
         for (name, value) in [("variance", variance), ("limit", limit)] {
             if !(value >= T::ZERO && value.is_finite()) {
-                return Err(Error::Parameter { name, value: value.to_f64() });
+                return Err(Error::Parameter {
+                    name,
+                    value: value.to_f64(),
+                    smallest: 0.0,
+                    largest: f64::MAX,
+                });
             }
         }
         Ok(Self { variance, limit })
@@ -72,7 +77,7 @@ impl<T: Real> Kernel<T> {
     #[inline]
     #[must_use]
     pub fn kaplanyan2016() -> Self {
-        Self { variance: T::lit(VARIANCE_KAPLANYAN2016), limit: T::HALF }
+        Self { variance: variance_kaplanyan2016(), limit: T::HALF }
     }
 
     /// σ² = ¼ and κ = 0.18; the papers use it with [`Bound::Upper`].
@@ -82,7 +87,7 @@ impl<T: Real> Kernel<T> {
     #[inline]
     #[must_use]
     pub fn tokuyoshi2019() -> Self {
-        Self { variance: T::lit(VARIANCE_KAPLANYAN2016), limit: T::lit(LARGEST_KERNEL) }
+        Self { variance: variance_kaplanyan2016(), limit: largest_kernel() }
     }
 
     /// σ² = 1/(2π) and κ = 0.18; the paper uses it with [`Bound::Mean`].
@@ -92,7 +97,7 @@ impl<T: Real> Kernel<T> {
     #[inline]
     #[must_use]
     pub fn tokuyoshi2021() -> Self {
-        Self { variance: T::lit(VARIANCE_TOKUYOSHI2021), limit: T::lit(LARGEST_KERNEL) }
+        Self { variance: variance_tokuyoshi2021(), limit: largest_kernel() }
     }
 
     /// σ² in pixels².
@@ -194,7 +199,7 @@ pub fn isotropic_from_normals<T: Real>(
 /// ```
 /// use microsurface::filter::{Footprint, deferred::{Bound, Kernel, isotropic}};
 /// use microsurface::glam::{Mat2, Vec2};
-/// let pixel = Footprint::<f32>::new(Vec2::new(0.5, 0.0), Vec2::new(0.0, 0.5));
+/// let pixel = Footprint::new(Vec2::new(0.5, 0.0), Vec2::new(0.0, 0.5));
 /// let normals = pixel.transformed(Mat2::IDENTITY * 0.2);
 /// let alpha = isotropic(0.1, normals, &Kernel::tokuyoshi2019(), Bound::Mean);
 /// assert!((alpha * alpha - (0.01 + 2.0 * 0.25 * 0.1 * 0.1)).abs() < 1e-6);
@@ -218,7 +223,7 @@ pub fn isotropic<T: Real>(alpha: T, footprint: Footprint<T>, kernel: &Kernel<T>,
 /// ```
 /// use microsurface::filter::{Footprint, deferred::{Kernel, max_eigenvalue}};
 /// use microsurface::glam::Vec2;
-/// let footprint = Footprint::<f32>::new(Vec2::new(0.3, 0.4), Vec2::new(-0.04, 0.03)); // across each other
+/// let footprint = Footprint::new(Vec2::new(0.3, 0.4), Vec2::new(-0.04, 0.03)); // across each other
 /// let alpha = max_eigenvalue(0.1, footprint, &Kernel::tokuyoshi2019());
 /// assert!((alpha * alpha - (0.01 + 2.0 * 0.25 * 0.25)).abs() < 1e-6);
 /// ```
@@ -246,7 +251,7 @@ pub fn max_eigenvalue<T: Real>(alpha: T, footprint: Footprint<T>, kernel: &Kerne
 /// ```
 /// use microsurface::filter::{Footprint, deferred::{Kernel, rectangle}};
 /// use microsurface::glam::Vec2;
-/// let footprint = Footprint::<f32>::new(Vec2::new(0.1, -0.2), Vec2::new(-0.1, 0.0));
+/// let footprint = Footprint::new(Vec2::new(0.1, -0.2), Vec2::new(-0.1, 0.0));
 /// let [alpha_x, alpha_y] = rectangle([0.1, 0.3], footprint, &Kernel::tokuyoshi2019());
 /// assert!((alpha_x * alpha_x - (0.01 + 0.5 * 0.04)).abs() < 1e-6);
 /// assert!((alpha_y * alpha_y - (0.09 + 0.5 * 0.04)).abs() < 1e-6);
@@ -294,7 +299,7 @@ pub fn rectangle_maximum<T: Real>(alpha: T, footprint: Footprint<T>, kernel: &Ke
 /// ```
 /// use microsurface::{filter::deferred::quad_in_slopes, frame::Frame, glam::Vec3};
 /// // A cylinder along y: from one column to the next the normal turns by 0.1.
-/// let (left, right) = (Frame::<f32>::from_normal(Vec3::Z), Frame::from_normal(Vec3::new(0.1_f32.sin(), 0.0, 0.1_f32.cos())));
+/// let (left, right) = (Frame::from_normal(Vec3::Z), Frame::from_normal(Vec3::new(0.1_f32.sin(), 0.0, 0.1_f32.cos())));
 /// let [du, dv] = quad_in_slopes(&[left, right, left, right]).steps();
 /// assert!((du.x.abs() - 2.0 * 0.05_f32.tan()).abs() < 1e-6 && dv.length() < 1e-6);
 /// ```
@@ -304,7 +309,7 @@ pub fn rectangle_maximum<T: Real>(alpha: T, footprint: Footprint<T>, kernel: &Ke
 #[inline]
 #[must_use]
 pub fn quad_in_slopes<T: Real>(frames: &[Frame<T>; 4]) -> Footprint<T> {
-    steps(seen_average(frames).map(|n| normal_to_slope::<T>(n.into()).into()))
+    steps(seen_average(frames).map(|n| normal_to_slope(n).into()))
 }
 
 /// The same in projected space: the steps of m.xy of the average normal.
@@ -335,10 +340,7 @@ fn steps<T: Real>([p00, p10, p01, p11]: [[T; 2]; 4]) -> Footprint<T> {
     let mean_of_differences = |a: [T; 2], b: [T; 2], c: [T; 2], d: [T; 2]| {
         [T::HALF * ((b[0] - a[0]) + (d[0] - c[0])), T::HALF * ((b[1] - a[1]) + (d[1] - c[1]))]
     };
-    Footprint::new(
-        mean_of_differences(p00, p10, p01, p11).into(),
-        mean_of_differences(p00, p01, p10, p11).into(),
-    )
+    Footprint::new(mean_of_differences(p00, p10, p01, p11), mean_of_differences(p00, p01, p10, p11))
 }
 
 #[inline]

@@ -9,7 +9,7 @@ pub mod ray;
 
 pub use covariance::Covariance;
 
-use crate::Real;
+use crate::real::{Real, Vector};
 
 /// The steps of the half vector from one pixel to the next, along u and along v: the rows of Δ.
 ///
@@ -23,7 +23,7 @@ use crate::Real;
 /// ```
 /// use microsurface::{Ggx, Ndf, filter::{Footprint, polygon}, glam::Vec2};
 /// let surface = Ggx::isotropic(0.01_f32)?;
-/// let footprint = Footprint::<f32>::new(Vec2::new(0.03, 0.01), Vec2::new(-0.01, 0.05)).clamped(1.0);
+/// let footprint = Footprint::new(Vec2::new(0.03, 0.01), Vec2::new(-0.01, 0.05)).clamped(1.0);
 /// let slope = Vec2::new(0.012, 0.02); // beside the highlight, which is within the pixel
 /// let [du, dv] = footprint.steps();
 /// assert!(polygon::mean_p22(&surface, slope, du, dv) > 2.0 * surface.p22(slope));
@@ -42,7 +42,9 @@ impl<T: Real> Footprint<T> {
     /// The footprint of these steps per pixel.
     #[inline(always)]
     #[must_use]
-    pub fn new(dh_du: T::Vec2, dh_dv: T::Vec2) -> Self {
+    pub fn new(dh_du: impl Vector<2, Scalar = T>, dh_dv: impl Vector<2, Scalar = T>) -> Self {
+        let dh_du = T::Vec2::from(dh_du.components());
+        let dh_dv = T::Vec2::from(dh_dv.components());
         Self { du: dh_du, dv: dh_dv }
     }
 
@@ -58,8 +60,8 @@ impl<T: Real> Footprint<T> {
         [self.du.into(), self.dv.into()]
     }
 
-    fn of_rows([du, dv]: [[T; 2]; 2]) -> Self {
-        Self::new(du.into(), dv.into())
+    pub(crate) fn of_rows([du, dv]: [[T; 2]; 2]) -> Self {
+        Self { du: du.into(), dv: dv.into() }
     }
 
     /// Whether both steps are finite.

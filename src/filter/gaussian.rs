@@ -104,7 +104,7 @@ type Core<T> = (T, Microsurface<Beckmann, Linear<T>>);
 /// ```
 /// use microsurface::{Ggx, Ndf, filter::{Footprint, gaussian}, glam::Vec2};
 /// let surface = Ggx::isotropic(0.02_f32)?;
-/// let kernel = Footprint::<f32>::new(Vec2::new(0.1, 0.0), Vec2::new(0.0, 0.06)).covariance(0.25);
+/// let kernel = Footprint::new(Vec2::new(0.1, 0.0), Vec2::new(0.0, 0.06)).covariance(0.25);
 /// let filtered = gaussian::filtered(&surface, kernel)?;
 /// // Far out it is the unfiltered surface, and the proxy is not.
 /// let far = Vec2::new(3.0, 0.0);
@@ -348,15 +348,15 @@ impl<T: Real, const N: usize> StagedVndf for FilteredGgx<T, N> {
 /// # Example
 /// ```
 /// use microsurface::{Ggx, filter::{Covariance, gaussian}, glam::DVec2};
-/// let peak = gaussian::p22(&Ggx::isotropic(1.0_f64)?, Covariance::isotropic(1.0), DVec2::ZERO);
+/// let peak = gaussian::p22(&Ggx::isotropic(1.0_f64)?, DVec2::ZERO, Covariance::isotropic(1.0));
 /// assert!((peak / 0.0857120484959665 - 1.0).abs() < 2e-13);
 /// # Ok::<(), microsurface::Error>(())
 /// ```
 #[must_use]
 pub fn p22<M: Map>(
     surface: &Microsurface<Ggx, M>,
-    covariance: Covariance<M::Scalar>,
     slope: Vec2<Microsurface<Ggx, M>>,
+    covariance: Covariance<M::Scalar>,
 ) -> M::Scalar {
     const STEP: f64 = 0.25;
     /// e^STEP.

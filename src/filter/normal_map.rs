@@ -19,7 +19,7 @@
 //! let texture = Moments::mean(texels).ok_or("no texels")?;
 //! let (frame, covariance) = texture.tilted();
 //! // Directions and footprints are then those in `frame`.
-//! let footprint = Footprint::<f32>::new(Vec2::new(0.02, 0.0), Vec2::new(0.0, 0.02));
+//! let footprint = Footprint::new(Vec2::new(0.02, 0.0), Vec2::new(0.0, 0.02));
 //! let surface = Ggx::isotropic(0.1)?.filtered(footprint.covariance(0.25) + covariance)?;
 //! assert!(surface.roughness_matrix()?.principal()[0] > 0.2 && frame.axes()[2].z < 1.0);
 //! # Ok::<(), Box<dyn core::error::Error>>(())
@@ -34,10 +34,10 @@ mod toksvig;
 
 use core::ops::Add;
 
-use crate::Real;
 use crate::elementary::exact::difference_of_products;
 use crate::filter::Covariance;
 use crate::frame::{Frame, normal_to_slope, slope_to_normal};
+use crate::real::{Real, Vector};
 
 pub use toksvig::{alpha_toksvig2005, exponent_toksvig2005, variance_toksvig2005};
 
@@ -68,7 +68,8 @@ impl<T: Real> Moments<T> {
     /// Of one slope.
     #[inline]
     #[must_use]
-    pub fn of_slope(slope: T::Vec2) -> Self {
+    pub fn of_slope(slope: impl Vector<2, Scalar = T>) -> Self {
+        let slope = T::Vec2::from(slope.components());
         Self { mean: slope.into(), covariance: [T::ZERO; 3] }
     }
 
@@ -81,13 +82,14 @@ impl<T: Real> Moments<T> {
     /// # Example
     /// ```
     /// use microsurface::{filter::normal_map::Moments, glam::Vec3};
-    /// let texels = [Vec3::new(-0.5, 0.0, 1.0), Vec3::X, Vec3::new(0.5, 0.0, -1.0)].map(Moments::<f32>::of_normal);
+    /// let texels = [Vec3::new(-0.5, 0.0, 1.0), Vec3::X, Vec3::new(0.5, 0.0, -1.0)].map(Moments::of_normal);
     /// assert_eq!(texels.map(|texel| texel.is_finite()), [true, false, false]);
     /// assert_eq!(Moments::mean(texels), Some(texels[0]));
     /// ```
     #[inline]
     #[must_use]
-    pub fn of_normal(m: T::Vec3) -> Self {
+    pub fn of_normal(m: impl Vector<3, Scalar = T>) -> Self {
+        let m = T::Vec3::from(m.components());
         let [_, _, z]: [T; 3] = m.into();
         // NaN has none either.
         let none = T::ZERO * T::INFINITY;
@@ -154,7 +156,7 @@ impl<T: Real> Moments<T> {
     /// # Example
     /// ```
     /// use microsurface::{filter::normal_map::Moments, glam::Vec2};
-    /// let ridges = [1.0, -1.0].map(|x| Moments::<f32>::of_slope(Vec2::new(x, 0.0)));
+    /// let ridges = [1.0, -1.0].map(|x| Moments::of_slope(Vec2::new(x, 0.0)));
     /// let flat = Moments::mean(ridges).ok_or("none")?;
     /// assert!(flat.mean_slope() == Vec2::ZERO && flat.covariance().entries() == [1.0, 0.0, 0.0]);
     /// # Ok::<(), &str>(())
@@ -249,7 +251,7 @@ impl<T: Real> Moments<T> {
     #[inline]
     #[must_use]
     pub fn mesonormal(&self) -> T::Vec3 {
-        slope_to_normal::<T>(self.mean.into())
+        slope_to_normal(self.mean)
     }
 
     /// The covariance E\[ttᵀ\] − E\[t\]E\[t\]ᵀ about the mean slope, in the frame of the surface; the nearest that is positive
@@ -275,7 +277,7 @@ impl<T: Real> Moments<T> {
     /// # Example
     /// ```
     /// use microsurface::{filter::{Covariance, normal_map::Moments}, glam::Vec2};
-    /// let tilted_by_45_degrees = Moments::<f32>::new(Vec2::new(1.0, 0.0), Covariance::isotropic(0.01));
+    /// let tilted_by_45_degrees = Moments::new(Vec2::new(1.0, 0.0), Covariance::isotropic(0.01_f32));
     /// let (_, covariance) = tilted_by_45_degrees.tilted();
     /// let [along, _, across] = covariance.entries();
     /// assert!((along - 0.01 / 4.0).abs() < 1e-8 && (across - 0.01 / 2.0).abs() < 1e-8);

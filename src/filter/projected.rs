@@ -42,7 +42,7 @@ use crate::profile::ShapeInvariant;
 ///
 /// # Domain
 /// `footprint`: the steps of m.xy per pixel. `variance`: σ² of the pixel filter in pixels²;
-/// [`covariance::VARIANCE_TOKUYOSHI2021`](crate::filter::covariance::VARIANCE_TOKUYOSHI2021) is the paper's.
+/// [`covariance::variance_tokuyoshi2021`](crate::filter::covariance::variance_tokuyoshi2021) is the paper's.
 ///
 /// # Special cases
 /// A footprint of 0 gives the same surface. Where a principal α is 1 or more, it stays as it is; see the
@@ -63,8 +63,8 @@ use crate::profile::ShapeInvariant;
 /// ```
 /// use microsurface::{Ggx, filter::{Footprint, covariance, projected}, glam::Vec2};
 /// let surface = Ggx::isotropic(0.1_f32)?;
-/// let footprint = Footprint::<f32>::new(Vec2::new(0.2, 0.0), Vec2::ZERO);
-/// let variance = covariance::VARIANCE_TOKUYOSHI2021 as f32;
+/// let footprint = Footprint::new(Vec2::new(0.2, 0.0), Vec2::ZERO);
+/// let variance = covariance::variance_tokuyoshi2021();
 /// let [alpha_x, alpha_y, _] = projected::filtered(&surface, footprint, variance)?.roughness_matrix()?.principal();
 /// // α² = 0.01 is 0.01/0.99 on the disc.
 /// let on_the_disc = 0.01 / 0.99 + 2.0 * variance * 0.2 * 0.2;
@@ -243,7 +243,7 @@ pub fn filtered_axis_aligned<T: Real>(
 /// # Example
 /// ```
 /// use microsurface::{Ggx, filter::{Footprint, deferred::Kernel, projected}, glam::Vec2};
-/// let footprint = Footprint::<f32>::new(Vec2::new(0.1, 0.0), Vec2::new(0.1, 0.0));
+/// let footprint = Footprint::new(Vec2::new(0.1, 0.0), Vec2::new(0.1, 0.0));
 /// let filtered = projected::filtered_by_bounds(&Ggx::anisotropic(0.05, 0.05)?, footprint, &Kernel::tokuyoshi2021())?;
 /// let [alpha_x, alpha_y] = filtered.map().alphas();
 /// assert!(alpha_x > 0.11 && alpha_y == 0.05); // 2σ²(0.1 + 0.1)² = 0.0127
@@ -274,7 +274,7 @@ pub fn filtered_by_bounds<T: Real>(
 /// ```
 /// use microsurface::{Beckmann, filter::{Footprint, projected}, glam::Vec2};
 /// let surface = Beckmann::isotropic(0.1_f32)?;
-/// let footprint = Footprint::<f32>::new(Vec2::new(0.2, 0.0), Vec2::ZERO);
+/// let footprint = Footprint::new(Vec2::new(0.2, 0.0), Vec2::ZERO);
 /// let [alpha_x, _, _] =
 ///     projected::filtered_tokuyoshi2017(&surface, footprint, 0.25)?.roughness_matrix()?.principal();
 /// assert!((alpha_x * alpha_x - 0.03).abs() < 1e-7);

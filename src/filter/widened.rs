@@ -28,7 +28,7 @@ impl<P: ShapeInvariant, M: Map> Microsurface<P, M> {
     /// use microsurface::{Beckmann, Ndf, filter::Footprint, glam::Vec2};
     /// let surface = Beckmann::isotropic(0.01_f32)?;
     /// // The half vector moves by 0.05 in slope from one pixel to the next.
-    /// let footprint = Footprint::<f32>::new(Vec2::new(0.05, 0.0), Vec2::new(0.0, 0.002));
+    /// let footprint = Footprint::new(Vec2::new(0.05, 0.0), Vec2::new(0.0, 0.002));
     /// let filtered = surface.filtered(footprint.covariance(0.25))?;
     /// let [alpha, _, _] = filtered.roughness_matrix()?.principal();
     /// assert!((alpha - (0.01_f32 * 0.01 + 2.0 * 0.25 * 0.05 * 0.05).sqrt()).abs() < 1e-6);

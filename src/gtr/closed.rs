@@ -43,7 +43,12 @@ impl<T: Real, const G: u8> Forms for Closed<T, G> {}
 impl<T: Real, const G: u8> Masking<T> for Closed<T, G> {
     fn new(alpha: T, gamma: T) -> Result<Self, Error> {
         if gamma != T::lit(f64::from(G)) {
-            return Err(Error::Parameter { name: "gamma", value: gamma.to_f64() });
+            return Err(Error::Parameter {
+                name: "gamma",
+                value: gamma.to_f64(),
+                smallest: f64::from(G),
+                largest: f64::from(G),
+            });
         }
         let alpha = alpha.to_f64();
         let alpha2 = alpha * alpha;

@@ -3,7 +3,9 @@
 use crate::Real;
 use crate::elementary::exact::difference_of_products;
 use crate::error::Error;
+use crate::map::axis_aligned::AxisAligned;
 use crate::map::gram::Gram;
+use crate::map::isotropic::Isotropic;
 use crate::map::roughness_matrix::RoughnessMatrix;
 use crate::map::{Map, scale};
 
@@ -102,6 +104,21 @@ impl<T: Real> From<RoughnessMatrix<T>> for Linear<T> {
     #[inline]
     fn from(matrix: RoughnessMatrix<T>) -> Self {
         Self::of_factor(matrix.factor())
+    }
+}
+
+impl<T: Real> From<Isotropic<T>> for Linear<T> {
+    #[inline]
+    fn from(map: Isotropic<T>) -> Self {
+        Self::of_factor([map.alpha(), T::ZERO, map.alpha()])
+    }
+}
+
+impl<T: Real> From<AxisAligned<T>> for Linear<T> {
+    #[inline]
+    fn from(map: AxisAligned<T>) -> Self {
+        let [alpha_x, alpha_y] = map.alphas();
+        Self::of_factor([alpha_x, T::ZERO, alpha_y])
     }
 }
 

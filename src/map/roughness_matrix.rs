@@ -34,6 +34,7 @@ use crate::real::construction::{atan2, cos, sin};
 /// # References
 /// Heitz 2014, §5.4; Kaplanyan, Hill, Patney and Lefohn 2016; Tokuyoshi and Kaplanyan 2019, supplement.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[doc(alias("anisotropy", "rotation"))]
 pub struct RoughnessMatrix<T> {
     /// R = [[r11, r12], [0, r22]], r11 and r22 above 0.
     r11: T,
@@ -126,7 +127,12 @@ impl<T: Real> RoughnessMatrix<T> {
         let [x, y] = [checked(alpha_x)?, checked(alpha_y)?].map(T::to_f64);
         let angle = angle.to_f64();
         if !angle.is_finite() {
-            return Err(Error::Parameter { name: "angle", value: angle });
+            return Err(Error::Parameter {
+                name: "angle",
+                value: angle,
+                smallest: f64::MIN,
+                largest: f64::MAX,
+            });
         }
         let (s, c) = (sin(angle), cos(angle));
         let ((xc, xs), (yc, ys)) = ((x * c, x * s), (y * c, y * s));

@@ -29,8 +29,7 @@ pub fn jacobian_of_normals<T: Real>(matrix: T::Mat2, m: T::Vec3) -> T::Mat2 {
 
 /// The Jacobian of a map of texture coordinates at a point, by central differences: the M that it moves a microsurface by.
 ///
-/// `uv` are the coordinates at rest: on a surface that was moved already, those the map takes to the point. The scalar
-/// has to be named, as below.
+/// `uv` are the coordinates at rest: on a surface that was moved already, those the map takes to the point.
 ///
 /// `step` is half the distance between the points; the error is `step`²/6 times the third derivatives, plus the
 /// rounding of the map over `step`: ε^{1/3} times the size of the coordinates balances them.
@@ -39,7 +38,7 @@ pub fn jacobian_of_normals<T: Real>(matrix: T::Mat2, m: T::Vec3) -> T::Mat2 {
 /// ```
 /// use microsurface::{Ggx, glam::DVec2, transform::jacobian_of_uv_map};
 /// let curved = |uv: DVec2| DVec2::new(uv.x, uv.y + 2.0 * uv.x.powi(5));
-/// let m = jacobian_of_uv_map::<f64>(curved, DVec2::new(0.5, 0.2), 1e-5);
+/// let m = jacobian_of_uv_map(curved, DVec2::new(0.5, 0.2), 1e-5_f64);
 /// assert!((m.x_axis - DVec2::new(1.0, 0.625)).length() < 1e-8);
 /// let sheared = Ggx::isotropic(0.1)?.transformed(m)?;
 /// # let _ = sheared;

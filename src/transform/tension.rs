@@ -11,11 +11,11 @@
 //!
 //! References: Atanasov, Koylazov, Dimov and Wilkie 2022, §5.1.
 
-use crate::Real;
 use crate::elementary::exact::difference_of_products;
 use crate::error::Error;
 use crate::frame::Frame;
 use crate::map::invertible;
+use crate::real::{Real, Vector};
 use crate::vector::dot;
 
 /// A triangle at rest and deformed, with its texture coordinates.
@@ -69,6 +69,18 @@ fn axes([e1, e2]: [[f64; 3]; 2], [[u1, v1], [u2, v2]]: [[f64; 2]; 2]) -> Option<
 }
 
 impl<T: Real> Triangle<T> {
+    /// The triangle of these corners, at rest and deformed, and of these texture coordinates.
+    #[inline]
+    #[must_use]
+    pub fn new<V: Vector<3, Scalar = T>>(
+        rest: [V; 3],
+        deformed: [V; 3],
+        uv: [impl Vector<2, Scalar = T>; 3],
+    ) -> Self {
+        let of = |v: V| v.components().into();
+        Self { rest: rest.map(of), deformed: deformed.map(of), uv: uv.map(|uv| uv.components().into()) }
+    }
+
     /// T = D R⁻¹.
     ///
     /// # Errors
@@ -82,7 +94,7 @@ impl<T: Real> Triangle<T> {
     /// let uv = [Vec2::ZERO, Vec2::X, Vec2::Y];
     /// // Drawn out to twice its length along u, and turned somewhere else.
     /// let deformed = [Vec3::ZERO, Vec3::Z * 2.0, Vec3::X].map(|p| p + Vec3::new(1.0, 2.0, 3.0));
-    /// let tension = Triangle::<f32> { rest, deformed, uv }.tension()?;
+    /// let tension = Triangle::new(rest, deformed, uv).tension()?;
     /// assert!((tension.x_axis - Vec2::new(2.0, 0.0)).length() < 1e-6);
     /// let stretched = Gtr::isotropic(0.25_f32, 2.2)?.transformed(tension)?;
     /// # let _ = stretched;
@@ -117,7 +129,7 @@ impl<T: Real> Triangle<T> {
     /// [`Error::Map`] with a determinant of 0 where the triangle or its texture coordinates have no area.
     pub fn frame(&self) -> Result<Frame<T>, Error> {
         let axes = axes(edges::<T>(self.deformed), self.uv_edges()).ok_or(Error::Map { determinant: 0.0 })?;
-        let [normal, tangent] = [axes.z, axes.x].map(|axis| axis.map(T::lit).into());
+        let [normal, tangent] = [axes.z, axes.x].map(|axis| axis.map(T::lit));
         Ok(Frame::from_normal_and_tangent(normal, tangent))
     }
 
@@ -223,7 +235,7 @@ impl<T: Real> Mesh<'_, T> {
 /// ```
 /// use microsurface::{glam::{Mat2, Vec2}, transform::tension::interpolated};
 /// let corners = [1.0_f32, 2.0, 3.0].map(|k| Mat2::from_diagonal(Vec2::new(k, 1.0)));
-/// assert!((interpolated::<f32>(corners, [0.5, 0.25, 0.25]).x_axis.x - 1.75).abs() < 1e-6);
+/// assert!((interpolated(corners, [0.5_f32, 0.25, 0.25]).x_axis.x - 1.75).abs() < 1e-6);
 /// ```
 #[must_use]
 pub fn interpolated<T: Real>(corners: [T::Mat2; 3], barycentric: [T; 3]) -> T::Mat2 {

@@ -38,7 +38,7 @@ fn footprints<T>([du_x, du_y, dv_x, dv_y]: &[Vec<T>; 4]) -> Footprints<'_, T> {
 }
 
 fn footprint<T: Real>(i: usize) -> Footprint<T> {
-    Footprint::new([step(i, 0), step(i, 1)].into(), [step(i, 2), step(i, 3)].into())
+    Footprint::new([step(i, 0), step(i, 1)], [step(i, 2), step(i, 3)])
 }
 
 pub(crate) fn everything<T: Elementary>() {

@@ -232,23 +232,24 @@ fn maps_are_refused() {
 #[test]
 fn fresnel_terms_are_refused() {
     for eta in [0.0, -0.0, -1.5, f64::NAN, f64::INFINITY] {
-        let Some(Error::RefractiveIndex { value }) = Dielectric::new(eta).err() else { panic!("{eta}") };
+        let Some(Error::RefractiveIndex { value, .. }) = Dielectric::new(eta).err() else { panic!("{eta}") };
         assert_eq!(value.to_bits(), eta.to_bits());
         assert!(matches!(Conductor::new(eta, 1.0), Err(Error::RefractiveIndex { .. })));
         // The channel at fault is named.
-        let Some(Error::RefractiveIndex { value }) = Dielectric::new(DVec3::new(1.5, eta, -7.0)).err() else {
+        let Some(Error::RefractiveIndex { value, .. }) = Dielectric::new(DVec3::new(1.5, eta, -7.0)).err()
+        else {
             panic!("{eta}")
         };
         assert_eq!(value.to_bits(), eta.to_bits());
     }
     for k in [-0.1, f64::NAN, f64::INFINITY] {
-        let Some(Error::Extinction { value }) = Conductor::new(1.0, k).err() else { panic!("{k}") };
+        let Some(Error::Extinction { value, .. }) = Conductor::new(1.0, k).err() else { panic!("{k}") };
         assert_eq!(value.to_bits(), k.to_bits());
     }
     assert!(Conductor::new(0.2, 0.0).is_ok() && Conductor::new(1e9_f32, 1e9).is_ok());
     for large in [1.1e9, f64::MAX] {
-        assert_eq!(Conductor::new(large, 1.0), Err(Error::RefractiveIndex { value: large }));
-        assert_eq!(Conductor::new(1.0, large), Err(Error::Extinction { value: large }));
+        assert_eq!(Conductor::new(large, 1.0), Err(Error::RefractiveIndex { value: large, largest: 1e9 }));
+        assert_eq!(Conductor::new(1.0, large), Err(Error::Extinction { value: large, largest: 1e9 }));
     }
     for f0 in [-1e-9, 1.000001, 7.5, f64::NAN, f64::INFINITY] {
         let Some(Error::Reflectance { value }) = Schlick::new(f0).err() else { panic!("{f0}") };
@@ -292,7 +293,7 @@ fn artists_parameters_are_refused() {
 fn probabilities_are_refused<T: Scalar>() {
     for p in [T::ONE, -T::TINIEST, -T::ONE, T::TWO, T::NAN, T::INFINITY, -T::INFINITY] {
         let error = UniformMixture::new(AllNormals, p).unwrap_err();
-        let Error::Parameter { name: "probability", value } = error else { panic!("{error:?}") };
+        let Error::Parameter { name: "probability", value, .. } = error else { panic!("{error:?}") };
         assert_eq!(value.to_bits(), p.to_f64().to_bits());
         assert!(error.to_string().contains(&format!("probability = {value}")), "{error}");
     }

@@ -12,7 +12,7 @@ use crate::{Hash, Record, name};
 const COUNT: usize = 1000;
 
 fn footprint<T: Real>(random: &mut Random) -> Footprint<T> {
-    Footprint::new(random.slope::<T>(0.1).into(), random.slope::<T>(0.1).into())
+    Footprint::new(random.slope::<T>(0.1), random.slope::<T>(0.1))
 }
 
 fn map<T: Real, P>(hash: &mut Hash, surface: &Microsurface<P, microsurface::Linear<T>>) {
@@ -71,7 +71,7 @@ pub(crate) fn all<T: Real>(record: &mut Record) {
     });
     each("convolved with Gaussians", 18, 300, &|random, hash| {
         let covariance: Covariance<T> = footprint::<T>(random).covariance(l(0.25));
-        hash.add(gaussian::p22(&turned, covariance, random.slope::<T>(1.0).into()));
+        hash.add(gaussian::p22(&turned, random.slope::<T>(1.0).into(), covariance));
     });
     each("means over footprints of GGX", 19, COUNT, &|random, hash| {
         let (slope, [du, dv]) = (random.slope::<T>(0.3).into(), footprint::<T>(random).steps());

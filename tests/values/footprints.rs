@@ -39,7 +39,7 @@ fn ray<T: Real>(hash: &mut Hash, ray: &RayDifferential<T>, direction: T::Vec3, n
 
 fn half_vectors<T: Real>(random: &mut Random, hash: &mut Hash) {
     let l = T::lit;
-    let frame = Frame::<T>::from_normal_and_tangent(random.above::<T>().into(), random.vector::<T>().into());
+    let frame = Frame::<T>::from_normal_and_tangent(random.above::<T>(), random.vector::<T>());
     let [point, eye, light] = core::array::from_fn(|_| random.vector::<T>().into());
     let [wi, wo] = core::array::from_fn(|_| random.above::<T>().into());
     let mut motion = || Motion::<T> {
@@ -83,7 +83,7 @@ pub(crate) fn all<T: Real>(record: &mut Record) {
         });
     };
     each("covariances", 21, &|random, hash| {
-        let f = Footprint::<T>::new(random.slope::<T>(1.0).into(), random.slope::<T>(1.0).into());
+        let f = Footprint::<T>::new(random.slope::<T>(1.0), random.slope::<T>(1.0));
         let m = T::matrix(random.matrix::<T>());
         let a = f.covariance(l(0.25));
         covariance(hash, a);
@@ -117,7 +117,7 @@ pub(crate) fn all<T: Real>(record: &mut Record) {
         hash.three::<T>(focus.direction(du, direction));
         ray(hash, &RayDifferential::<T>::thin_lens(focus, normal, direction, du, dv), direction, normal);
         ray(hash, &RayDifferential::<T>::across_lens(focus, normal, du, dv, direction), direction, normal);
-        let frames: [Frame<T>; 4] = core::array::from_fn(|_| Frame::from_normal(random.above::<T>().into()));
+        let frames: [Frame<T>; 4] = core::array::from_fn(|_| Frame::from_normal(random.above::<T>()));
         footprint(hash, quad_in_slopes(&frames));
         footprint(hash, quad_projected(&frames));
         let quad = Quad::<T, 2>::new(core::array::from_fn::<[T; 2], 4, _>(|_| random.slope(1.0)));
@@ -128,7 +128,7 @@ pub(crate) fn all<T: Real>(record: &mut Record) {
     each("normal maps", 25, &|random, hash| {
         let texels: [Moments<T>; 4] = core::array::from_fn(|_| {
             let [x, y, z] = random.above::<T>();
-            Moments::of_normal([x, y, z + l(0.1)].into())
+            Moments::of_normal([x, y, z + l(0.1)])
         });
         let mean = Moments::mean(texels).unwrap();
         let weighted = Moments::weighted_mean(texels.into_iter().zip([0.1, 0.2, 0.3, 0.4].map(l))).unwrap();

@@ -68,7 +68,7 @@ pub(crate) fn others<T: Real>(record: &mut Record) {
         for _ in 0..1000 {
             let (n, t, w) = (random.anywhere::<T>(), random.vector::<T>(), random.anywhere::<T>());
             for frame in
-                [Frame::<T>::from_normal(n.into()), Frame::<T>::from_normal_and_tangent(n.into(), t.into())]
+                [Frame::<T>::from_normal(n), Frame::<T>::from_normal_and_tangent(n, t)]
             {
                 for axis in frame.axes() {
                     hash.three::<T>(axis);
@@ -76,9 +76,9 @@ pub(crate) fn others<T: Real>(record: &mut Record) {
                 hash.three::<T>(frame.to_local(w.into()));
                 hash.three::<T>(frame.to_world(w.into()));
             }
-            hash.three::<T>(reflected::<T>(w.into(), n.into()));
-            hash.two::<T>(normal_to_slope::<T>(w.into()));
-            hash.three::<T>(slope_to_normal::<T>(random.slope::<T>(1.0).into()));
+            hash.three::<T>(reflected(w, n));
+            hash.two::<T>(normal_to_slope(w));
+            hash.three::<T>(slope_to_normal(random.slope::<T>(1.0)));
         }
     });
     record.group(format!("artists' maps {scalar}"), |hash| {

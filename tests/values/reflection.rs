@@ -83,8 +83,8 @@ fn over_footprints<T: Real + Spectrum<Scalar = T>>(record: &mut Record) {
         for _ in 0..500 {
             let [i, o] = [random.above::<T>(), random.above()].map(Into::into);
             let footprint =
-                Footprint::<T>::new(random.slope::<T>(0.05).into(), random.slope::<T>(0.05).into());
-            hash.all(&[ggx.eval_over(i, o, &footprint), beckmann.eval_over(i, o, &footprint)]);
+                Footprint::<T>::new(random.slope::<T>(0.05), random.slope::<T>(0.05));
+            hash.all(&[ggx.eval_over(i, o, footprint), beckmann.eval_over(i, o, footprint)]);
         }
     });
 }

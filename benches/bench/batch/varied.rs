@@ -35,7 +35,7 @@ pub(super) fn bench<T: Real + Spectrum<Scalar = T>>(criterion: &mut Criterion, n
     let [du_x, du_y, dv_x, dv_y] = &steps;
     let footprints = Footprints { du_x, du_y, dv_x, dv_y };
     let variance = T::lit(VARIANCE);
-    let footprint = |[ux, uy, vx, vy]: [T; 4]| Footprint::<T>::new([ux, uy].into(), [vx, vy].into());
+    let footprint = |[ux, uy, vx, vy]: [T; 4]| Footprint::new([ux, uy], [vx, vy]);
     let direction = |w: &Directions<T>, i: usize| -> T::Vec3 { [w.x[i], w.y[i], w.z[i]].into() };
     let scalar = |out: &mut [T], surface: &dyn Fn(usize, T::Vec3, T::Vec3) -> T| {
         for (i, out) in out.iter_mut().enumerate() {
@@ -60,7 +60,7 @@ pub(super) fn bench<T: Real + Spectrum<Scalar = T>>(criterion: &mut Criterion, n
                     eval(projected::filtered(surface, at(i), variance), fresnel, wi, wo)
                 });
             }),
-            ("mean", &mut |out| scalar(out, &|i, wi, wo| one.eval_over(wi, wo, &at(i)))),
+            ("mean", &mut |out| scalar(out, &|i, wi, wo| one.eval_over(wi, wo, at(i)))),
         ],
     );
 
@@ -80,7 +80,7 @@ pub(super) fn bench<T: Real + Spectrum<Scalar = T>>(criterion: &mut Criterion, n
     ask("projected", &mut |out| filtered.eval_batch(wi, wo, out));
     ask("mean", &mut |out| {
         map((wi, wo, footprints), out, |(wi, wo, steps)| {
-            one.eval_over(wi.into(), wo.into(), &footprint(steps))
+            one.eval_over(wi.into(), wo.into(), footprint(steps))
         });
     });
 }

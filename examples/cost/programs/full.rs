@@ -51,13 +51,13 @@ fn all() -> Result<(), Error> {
     under_maps!(Gtr::isotropic(alpha, gamma)?);
     under_maps!(Gtr::closed::<1>(alpha)?);
 
-    let footprint = Footprint::<f32>::new(black_box(Vec2::new(0.1, 0.02)), black_box(Vec2::new(0.0, 0.06)));
+    let footprint = Footprint::new(black_box(Vec2::new(0.1, 0.02)), black_box(Vec2::new(0.0, 0.06)));
     let surface = Ggx::isotropic(alpha)?;
     reflect!(surface.filtered(footprint.covariance(0.25))?);
     reflect!(projected::filtered(&surface, footprint, 0.25)?);
     reflect!(gaussian::filtered(&surface, footprint.covariance(0.25))?);
     let brdf = RoughConductor::new(surface, Conductor::new(0.2_f32, 3.9)?);
-    black_box(brdf.eval_over(black_box(Vec3::Z), black_box(Vec3::Z), &footprint));
+    black_box(brdf.eval_over(black_box(Vec3::Z), black_box(Vec3::Z), footprint));
     Ok(())
 }
 

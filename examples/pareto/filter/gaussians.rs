@@ -49,7 +49,7 @@ fn cases(pixels: usize) -> Vec<Case<Pixel>> {
                         (kernel, reference::isotropic(t.length(), sigma), reference::isotropic(0.0, sigma))
                     } else {
                         let sigma = step.as_dvec2() / width;
-                        let kernel = Footprint::<f32>::new(step, Vec2::ZERO).covariance(1.0);
+                        let kernel = Footprint::new(step, Vec2::ZERO).covariance(1.0);
                         (kernel, reference::line(t, sigma), reference::line(0.0 * t, sigma))
                     };
                     let [exact, peak] = [exact, peak].map(|p22| p22 / (width * width));
@@ -75,7 +75,7 @@ pub(super) fn run(effort: &Effort, out: &mut impl Write) -> io::Result<()> {
         Alternative::new("gaussian::filtered", &cases, |p| {
             gaussian::filtered(&p.surface, p.kernel).map_or(f32::NAN, |surface| surface.p22(p.slope))
         }),
-        Alternative::new("gaussian::p22", &cases, |p| gaussian::p22(&p.surface, p.kernel, p.slope)),
+        Alternative::new("gaussian::p22", &cases, |p| gaussian::p22(&p.surface, p.slope, p.kernel)),
     ];
     let describe = |p: &Pixel| {
         let alpha = p.surface.map().alpha();

@@ -3,7 +3,7 @@
 use core::f32::consts::TAU;
 use std::io::{self, Write};
 
-use microsurface::filter::covariance::{VARIANCE_KAPLANYAN2016, VARIANCE_OF_BOX};
+use microsurface::filter::covariance::{variance_kaplanyan2016, variance_of_box};
 use microsurface::filter::{Footprint, gaussian, polygon, rectangle};
 use microsurface::glam::Vec2;
 use microsurface::{Ggx, Ndf};
@@ -86,7 +86,7 @@ fn proxy(pixel: &Pixel, variance: f64) -> f32 {
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "a constant")]
-const BOX: f32 = VARIANCE_OF_BOX as f32;
+const BOX: f32 = 1.0 / 12.0;
 
 pub(super) fn run(effort: &Effort, out: &mut impl Write) -> io::Result<()> {
     let cases = cases(effort.pixels);
@@ -99,8 +99,8 @@ pub(super) fn run(effort: &Effort, out: &mut impl Write) -> io::Result<()> {
         Alternative::new("4×4 samples", &cases, samples::<4>),
         Alternative::new("8×8 samples", &cases, samples::<8>),
         Alternative::new("16×16 samples", &cases, samples::<16>),
-        Alternative::new("A + 2Σ, σ² = 1/12", &cases, |p| proxy(p, VARIANCE_OF_BOX)),
-        Alternative::new("A + 2Σ, σ² = 1/4", &cases, |p| proxy(p, VARIANCE_KAPLANYAN2016)),
+        Alternative::new("A + 2Σ, σ² = 1/12", &cases, |p| proxy(p, variance_of_box::<f64>())),
+        Alternative::new("A + 2Σ, σ² = 1/4", &cases, |p| proxy(p, variance_kaplanyan2016::<f64>())),
         Alternative::new("gaussian::filtered_by_two, 1/12", &cases, |p| {
             let filtered = gaussian::filtered_by_two(&p.surface, p.footprint.covariance(BOX));
             filtered.map_or(f32::NAN, |surface| surface.p22(p.slope))

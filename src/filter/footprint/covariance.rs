@@ -11,22 +11,38 @@ use crate::map::{Gram, sum};
 ///
 /// # References
 /// Kaplanyan, Hill, Patney and Lefohn 2016, §4.3; Tokuyoshi 2017, below Eq. 2.
-pub const VARIANCE_KAPLANYAN2016: f64 = 0.25;
+#[inline]
+#[must_use]
+pub fn variance_kaplanyan2016<T: Real>() -> T {
+    T::lit(0.25)
+}
 
 /// The screen-space variance σ² = 1/(2π) of the Gaussian whose peak is that of a box of one pixel, in pixels².
 ///
 /// # References
 /// Tokuyoshi and Kaplanyan 2021.
-pub const VARIANCE_TOKUYOSHI2021: f64 = 0.5 * core::f64::consts::FRAC_1_PI;
+#[inline]
+#[must_use]
+pub fn variance_tokuyoshi2021<T: Real>() -> T {
+    T::lit(0.5 * core::f64::consts::FRAC_1_PI)
+}
 
 /// The screen-space variance of a box of one pixel, 1/12, in pixels²: that of the mean over a footprint.
-pub const VARIANCE_OF_BOX: f64 = 1.0 / 12.0;
+#[inline]
+#[must_use]
+pub fn variance_of_box<T: Real>() -> T {
+    T::lit(1.0 / 12.0)
+}
 
 /// The usual limit κ of 2Σ, in slopes².
 ///
 /// # References
 /// Kaplanyan 2016, "Stable specular highlights"; Tokuyoshi 2017, Eq. 10.
-pub const LARGEST_KERNEL: f64 = 0.18;
+#[inline]
+#[must_use]
+pub fn largest_kernel<T: Real>() -> T {
+    T::lit(0.18)
+}
 
 /// A covariance Σ of slopes: a symmetric positive semidefinite 2×2 matrix, in slopes².
 ///
@@ -206,7 +222,7 @@ impl<T: Real> Covariance<T> {
 
     /// Σ with both eigenvalues limited, the directions kept.
     ///
-    /// The usual limit κ of 2Σ ([`LARGEST_KERNEL`]) is a limit of κ/2. A Σ that is not finite becomes `limit` in every
+    /// The usual limit κ of 2Σ ([`largest_kernel`]) is a limit of κ/2. A Σ that is not finite becomes `limit` in every
     /// direction: the largest kernel, where nothing is known.
     #[must_use]
     pub fn clamped(&self, limit: T) -> Self {

@@ -19,7 +19,7 @@
 pub use super::half_vector::HalfVector;
 pub use super::motion::{Curvature, InterpolatedNormals, Motion};
 
-use crate::Real;
+use crate::real::{Real, Vector};
 
 /// How much larger an error of the half vector's derivatives becomes in a space than it was on the sphere.
 ///
@@ -39,8 +39,8 @@ use crate::Real;
 /// ```
 /// use microsurface::{filter::jacobian::Amplification, glam::Vec3};
 /// let shallow = Vec3::new(0.96, 0.0, 0.28);
-/// assert!((Amplification::<f32>::in_slopes(shallow).largest - 12.755).abs() < 1e-3);
-/// assert_eq!(Amplification::<f32>::on_disk(shallow).largest, 1.0);
+/// assert!((Amplification::in_slopes(shallow).largest - 12.755).abs() < 1e-3);
+/// assert_eq!(Amplification::on_disk(shallow).largest, 1.0);
 /// ```
 ///
 /// # References
@@ -60,7 +60,8 @@ impl<T: Real> Amplification<T> {
     /// wm.z = 0 → ∞.
     #[inline]
     #[must_use]
-    pub fn in_slopes(wm: T::Vec3) -> Self {
+    pub fn in_slopes(wm: impl Vector<3, Scalar = T>) -> Self {
+        let wm = T::Vec3::from(wm.components());
         let [_, _, z]: [T; 3] = wm.into();
         let smallest = T::ONE / z.abs();
         Self { largest: smallest * smallest, smallest }
@@ -69,7 +70,8 @@ impl<T: Real> Amplification<T> {
     /// Of [`sphere_to_disk`]: [1, |z|].
     #[inline]
     #[must_use]
-    pub fn on_disk(wm: T::Vec3) -> Self {
+    pub fn on_disk(wm: impl Vector<3, Scalar = T>) -> Self {
+        let wm = T::Vec3::from(wm.components());
         let [_, _, z]: [T; 3] = wm.into();
         Self { largest: T::ONE, smallest: z.abs() }
     }
@@ -107,15 +109,16 @@ fn azimuth<T: Real>(x: T, y: T) -> [T; 2] {
 /// # Example
 /// ```
 /// use microsurface::{filter::jacobian::sphere_to_disk, glam::{Mat2, Vec3}};
-/// assert_eq!(sphere_to_disk::<f32>(Vec3::Z), Mat2::IDENTITY);
-/// assert!((sphere_to_disk::<f32>(Vec3::new(0.48, 0.64, 0.6)).determinant() - 0.6).abs() < 1e-6);
+/// assert_eq!(sphere_to_disk(Vec3::Z), Mat2::IDENTITY);
+/// assert!((sphere_to_disk(Vec3::new(0.48, 0.64, 0.6)).determinant() - 0.6).abs() < 1e-6);
 /// ```
 ///
 /// # References
 /// Tokuyoshi 2017, Eqs. 8 and 9.
 #[inline]
 #[must_use]
-pub fn sphere_to_disk<T: Real>(wm: T::Vec3) -> T::Mat2 {
+pub fn sphere_to_disk<T: Real>(wm: impl Vector<3, Scalar = T>) -> T::Mat2 {
+    let wm = T::Vec3::from(wm.components());
     let [x, y, z]: [T; 3] = wm.into();
     let [cos, sin] = azimuth(x, y);
     T::matrix([[cos * z, sin * z], [-sin, cos]])
@@ -140,7 +143,8 @@ pub fn sphere_to_disk<T: Real>(wm: T::Vec3) -> T::Mat2 {
 /// Tokuyoshi 2017, Eq. 25.
 #[inline]
 #[must_use]
-pub fn disk_to_slope<T: Real>(wm: T::Vec3) -> T::Mat2 {
+pub fn disk_to_slope<T: Real>(wm: impl Vector<3, Scalar = T>) -> T::Mat2 {
+    let wm = T::Vec3::from(wm.components());
     let [x, y, z]: [T; 3] = wm.into();
     let scale = -T::ONE / (z * z * z);
     let mixed = scale * (x * y);
@@ -166,15 +170,16 @@ pub fn disk_to_slope<T: Real>(wm: T::Vec3) -> T::Mat2 {
 /// ```
 /// use microsurface::{filter::jacobian::{disk_to_slope, sphere_to_disk, sphere_to_slope}, glam::DVec3};
 /// let m = DVec3::new(0.48, 0.64, 0.6);
-/// let chain = disk_to_slope::<f64>(m) * sphere_to_disk::<f64>(m);
-/// assert!(sphere_to_slope::<f64>(m).abs_diff_eq(chain, 1e-14));
+/// let chain = disk_to_slope(m) * sphere_to_disk(m);
+/// assert!(sphere_to_slope(m).abs_diff_eq(chain, 1e-14));
 /// ```
 ///
 /// # References
 /// Tokuyoshi 2017, Eqs. 5, 6 and 26.
 #[inline]
 #[must_use]
-pub fn sphere_to_slope<T: Real>(wm: T::Vec3) -> T::Mat2 {
+pub fn sphere_to_slope<T: Real>(wm: impl Vector<3, Scalar = T>) -> T::Mat2 {
+    let wm = T::Vec3::from(wm.components());
     let [x, y, z]: [T; 3] = wm.into();
     let [cos, sin] = azimuth(x, y);
     let (radial, tangential) = (-T::ONE / (z * z), T::ONE / z);

@@ -1,7 +1,7 @@
 //! What moves a half vector: the point, the eye, the light, and the normal with its frame.
 
-use crate::Real;
 use crate::frame::Frame;
+use crate::real::{Real, Vector};
 use crate::vector::dot;
 use crate::vector::{cross, minus, plus_scaled, unit_and_length, unit_step};
 
@@ -21,7 +21,7 @@ use crate::vector::{cross, minus, plus_scaled, unit_and_length, unit_step};
 /// ```
 /// use microsurface::{filter::jacobian::{Curvature, HalfVector, Motion}, frame::Frame, glam::DVec3};
 /// // On a mirror ball of radius 2, lit and seen from afar along the normal.
-/// let frame = Frame::<f64>::from_normal(DVec3::Z);
+/// let frame = Frame::from_normal(DVec3::Z);
 /// let half = HalfVector::far(&frame, DVec3::Z, DVec3::Z);
 /// let point = DVec3::new(0.1, 0.0, 0.0);
 /// let normal = Curvature::sphere(2.0).normal_step(&frame, point);
@@ -94,7 +94,7 @@ impl<T: Real> Motion<T> {
     /// ```
     /// use microsurface::{filter::jacobian::Motion, frame::Frame, glam::DVec3};
     /// // A wave of height sin(x)/2 along x, on a plane: at x = 0 its normal is (−½, 0, 1), and turns over no further.
-    /// let plane = Frame::<f64>::from_normal(DVec3::Z);
+    /// let plane = Frame::from_normal(DVec3::Z);
     /// let motion = Motion { point: DVec3::X, ..Motion::default() };
     /// let (m, step) = (DVec3::new(-0.5, 0.0, 1.0), DVec3::ZERO);
     /// assert_eq!(motion.perturbed(&plane, m, step).normal, DVec3::ZERO);
@@ -180,10 +180,8 @@ impl<T: Real> Curvature<T> {
 /// # Example
 /// ```
 /// use microsurface::{filter::jacobian::InterpolatedNormals, glam::DVec3};
-/// let mesh = InterpolatedNormals::<f64> {
-///     positions: [DVec3::ZERO, DVec3::X, DVec3::Y],
-///     normals: [DVec3::Z, DVec3::new(0.6, 0.0, 0.8), DVec3::Z],
-/// };
+/// let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
+/// let mesh = InterpolatedNormals::new(corners, [DVec3::Z, DVec3::new(0.6, 0.0, 0.8), DVec3::Z]);
 /// assert_eq!(mesh.normal([1.0, 0.0, 0.0]), DVec3::Z);
 /// assert!(mesh.normal_step([1.0, 0.0, 0.0], DVec3::X).abs_diff_eq(DVec3::new(0.6, 0.0, 0.0), 1e-15));
 /// ```
@@ -196,6 +194,14 @@ pub struct InterpolatedNormals<T: Real> {
 }
 
 impl<T: Real> InterpolatedNormals<T> {
+    /// The triangle of these corners and normals.
+    #[inline]
+    #[must_use]
+    pub fn new<V: Vector<3, Scalar = T>>(positions: [V; 3], normals: [V; 3]) -> Self {
+        let of = |v: V| v.components().into();
+        Self { positions: positions.map(of), normals: normals.map(of) }
+    }
+
     fn sum(&self, barycentric: [T; 3]) -> [T; 3] {
         let [a, b, c]: [[T; 3]; 3] = self.normals.map(Into::into);
         let [u, v, w] = barycentric;

@@ -1,7 +1,7 @@
 //! Derivatives by differences of neighbouring pixels, as shaders take them.
 
-use crate::Real;
 use crate::filter::Footprint;
+use crate::real::{Real, Vector};
 
 /// The values of some vector in four neighbouring pixels, two by two.
 ///
@@ -17,7 +17,7 @@ use crate::filter::Footprint;
 /// use microsurface::{filter::quad::Quad, glam::Vec2};
 /// // Of the half vectors (u², v) at the pixels u, v = 0, 1.
 /// let slopes = [Vec2::ZERO, Vec2::X, Vec2::Y, Vec2::ONE];
-/// let quad = Quad::<f32, 2>::new(slopes);
+/// let quad = Quad::new(slopes);
 /// assert_eq!(quad.coarse_footprint().steps(), [Vec2::X, Vec2::Y]);
 /// assert_eq!(quad.mean(), [0.5, 0.5]);
 /// ```
@@ -34,8 +34,8 @@ impl<T: Real, const N: usize> Quad<T, N> {
     /// The values at (0, 0), (1, 0), (0, 1), (1, 1): u first, then v. Vectors of glam or arrays.
     #[inline]
     #[must_use]
-    pub fn new<V: Into<[T; N]>>(values: [V; 4]) -> Self {
-        Self { values: values.map(Into::into) }
+    pub fn new(values: [impl Vector<N, Scalar = T>; 4]) -> Self {
+        Self { values: values.map(Vector::components) }
     }
 
     #[inline]
@@ -76,7 +76,7 @@ impl<T: Real> Quad<T, 2> {
     #[must_use]
     pub fn coarse_footprint(&self) -> Footprint<T> {
         let [du, dv] = self.coarse();
-        Footprint::new(du.into(), dv.into())
+        Footprint::of_rows([du, dv])
     }
 
     /// The footprint of the [`fine`](Self::fine) steps at a pixel.
@@ -84,6 +84,6 @@ impl<T: Real> Quad<T, 2> {
     #[must_use]
     pub fn fine_footprint(&self, pixel: [usize; 2]) -> Footprint<T> {
         let [du, dv] = self.fine(pixel);
-        Footprint::new(du.into(), dv.into())
+        Footprint::of_rows([du, dv])
     }
 }

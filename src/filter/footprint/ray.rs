@@ -6,7 +6,7 @@
 //! # References
 //! Igehy 1999, "Tracing ray differentials"; Kaplanyan, Hill, Patney and Lefohn 2016, §4.2.
 
-use crate::Real;
+use crate::real::{Real, Vector};
 use crate::vector::dot;
 use crate::vector::{minus, plus_scaled, unit_and_length, unit_step};
 
@@ -19,7 +19,7 @@ use crate::vector::{minus, plus_scaled, unit_and_length, unit_step};
 /// ```
 /// use microsurface::{filter::ray::RayDifferential, glam::DVec3};
 /// // Pixels of a hundredth at distance 1; the wall is 3 away and leans by 45° about y.
-/// let pixel = RayDifferential::<f64>::pinhole(-DVec3::Z, DVec3::X / 100.0, DVec3::Y / 100.0);
+/// let pixel = RayDifferential::pinhole(-DVec3::Z, DVec3::X / 100.0, DVec3::Y / 100.0);
 /// let wall = DVec3::new(1.0, 0.0, 1.0).normalize();
 /// let [du, dv] = pixel.onto_plane(-DVec3::Z, 3.0, wall);
 /// assert!(du.abs_diff_eq(DVec3::new(0.03, 0.0, -0.03), 1e-15) && dv.abs_diff_eq(DVec3::Y * 0.03, 1e-15));
@@ -52,7 +52,14 @@ impl<T: Real> RayDifferential<T> {
     /// Igehy 1999, Eq. 8.
     #[inline]
     #[must_use]
-    pub fn pinhole(direction: T::Vec3, direction_du: T::Vec3, direction_dv: T::Vec3) -> Self {
+    pub fn pinhole(
+        direction: impl Vector<3, Scalar = T>,
+        direction_du: impl Vector<3, Scalar = T>,
+        direction_dv: impl Vector<3, Scalar = T>,
+    ) -> Self {
+        let direction = T::Vec3::from(direction.components());
+        let direction_du = T::Vec3::from(direction_du.components());
+        let direction_dv = T::Vec3::from(direction_dv.components());
         let zero = [T::ZERO; 3].into();
         Self::of_unnormalised([zero, zero], direction.into(), [direction_du, direction_dv])
     }
@@ -66,11 +73,15 @@ impl<T: Real> RayDifferential<T> {
     #[must_use]
     pub fn thin_lens(
         focus: FocusPlane<T>,
-        lens: T::Vec3,
-        direction: T::Vec3,
-        direction_du: T::Vec3,
-        direction_dv: T::Vec3,
+        lens: impl Vector<3, Scalar = T>,
+        direction: impl Vector<3, Scalar = T>,
+        direction_du: impl Vector<3, Scalar = T>,
+        direction_dv: impl Vector<3, Scalar = T>,
     ) -> Self {
+        let lens = T::Vec3::from(lens.components());
+        let direction = T::Vec3::from(direction.components());
+        let direction_du = T::Vec3::from(direction_du.components());
+        let direction_dv = T::Vec3::from(direction_dv.components());
         let zero = [T::ZERO; 3].into();
         let steps = [direction_du, direction_dv].map(|step| focus.point_step(direction, step));
         Self::of_unnormalised([zero, zero], focus.seen_from(lens, direction), steps)
@@ -150,7 +161,7 @@ impl<T: Real> RayDifferential<T> {
 /// # Example
 /// ```
 /// use microsurface::{filter::ray::{FocusPlane, RayDifferential}, glam::DVec3};
-/// let focus = FocusPlane::<f64> { axis: -DVec3::Z, distance: 4.0 };
+/// let focus = FocusPlane::new(-DVec3::Z, 4.0);
 /// let lens = DVec3::new(0.1, 0.0, 0.0);
 /// let ray = focus.direction(lens, -DVec3::Z);
 /// let across = RayDifferential::across_lens(focus, lens, DVec3::X, DVec3::Y, -DVec3::Z);
@@ -169,6 +180,13 @@ pub struct FocusPlane<T: Real> {
 }
 
 impl<T: Real> FocusPlane<T> {
+    /// The plane across the unit vector `axis`, at this distance from the centre of the lens.
+    #[inline]
+    #[must_use]
+    pub fn new(axis: impl Vector<3, Scalar = T>, distance: T) -> Self {
+        Self { axis: axis.components().into(), distance }
+    }
+
     /// The unit direction from a point on the lens to what it shows sharp for a pixel's direction: that of the ray.
     #[inline]
     #[must_use]

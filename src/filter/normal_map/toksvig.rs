@@ -1,8 +1,8 @@
 //! The spread of normals by the length of their average.
 
-use crate::Real;
 use crate::alpha::checked;
 use crate::error::Error;
+use crate::real::{Real, Vector};
 
 /// The variance of slopes in each direction by the length of an average N of unit normals: (1 − |N|)/|N|.
 ///
@@ -24,7 +24,7 @@ use crate::error::Error;
 /// ```
 /// use microsurface::{Ggx, filter::{Covariance, normal_map::variance_toksvig2005}, glam::Vec3};
 /// let bumps = Vec3::new(0.2_f32, 0.0, 1.0).normalize() + Vec3::new(-0.2, 0.0, 1.0).normalize();
-/// let variance: f32 = variance_toksvig2005::<f32>(0.5 * bumps);
+/// let variance: f32 = variance_toksvig2005(0.5 * bumps);
 /// assert!((variance - (1.04_f32.sqrt() - 1.0)).abs() < 1e-6); // half of 0.2²: all of it is along x
 /// let surface = Ggx::isotropic(0.1_f32)?.filtered_isotropic(variance)?;
 /// # Ok::<(), microsurface::Error>(())
@@ -34,7 +34,8 @@ use crate::error::Error;
 /// Toksvig 2005, "Mipmapping normal maps".
 #[inline]
 #[must_use]
-pub fn variance_toksvig2005<T: Real>(average_normal: T::Vec3) -> T {
+pub fn variance_toksvig2005<T: Real>(average_normal: impl Vector<3, Scalar = T>) -> T {
+    let average_normal = T::Vec3::from(average_normal.components());
     let (length, missing) = length_and_missing::<T>(average_normal);
     T::lit(missing / length)
 }
@@ -50,14 +51,15 @@ pub fn variance_toksvig2005<T: Real>(average_normal: T::Vec3) -> T {
 /// # Example
 /// ```
 /// use microsurface::{filter::normal_map::exponent_toksvig2005, glam::Vec3};
-/// assert!((exponent_toksvig2005::<f32>(100.0, Vec3::new(0.0, 0.0, 0.9)) - 90.0 / 10.9).abs() < 1e-5);
+/// assert!((exponent_toksvig2005(100.0_f32, Vec3::new(0.0, 0.0, 0.9)) - 90.0 / 10.9).abs() < 1e-5);
 /// ```
 ///
 /// # References
 /// Toksvig 2005.
 #[inline]
 #[must_use]
-pub fn exponent_toksvig2005<T: Real>(exponent: T, average_normal: T::Vec3) -> T {
+pub fn exponent_toksvig2005<T: Real>(exponent: T, average_normal: impl Vector<3, Scalar = T>) -> T {
+    let average_normal = T::Vec3::from(average_normal.components());
     let (length, missing) = length_and_missing::<T>(average_normal);
     // Divided by s: finite for s = ∞ and 0 for s = 0.
     T::lit(length / (length / exponent.to_f64() + missing))
@@ -79,7 +81,8 @@ pub fn exponent_toksvig2005<T: Real>(exponent: T, average_normal: T::Vec3) -> T 
 /// # References
 /// Toksvig 2005, in slopes: its exponent is 2/α².
 #[inline]
-pub fn alpha_toksvig2005<T: Real>(alpha: T, average_normal: T::Vec3) -> Result<T, Error> {
+pub fn alpha_toksvig2005<T: Real>(alpha: T, average_normal: impl Vector<3, Scalar = T>) -> Result<T, Error> {
+    let average_normal = T::Vec3::from(average_normal.components());
     let alpha = checked(alpha)?.to_f64();
     let (length, missing) = length_and_missing::<T>(average_normal);
     checked(T::lit(Real::sqrt(alpha * alpha + 2.0 * missing / length)))

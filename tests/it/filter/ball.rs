@@ -62,7 +62,7 @@ fn errors(light: DVec3, alpha: f64, tone: impl Fn(f64) -> f64) -> [f64; 4] {
             material.eval(wi, wo),
             RoughConductor::new(widened, Perfect::<f64>::new()).eval(wi, wo),
             RoughConductor::new(convolved, Perfect::<f64>::new()).eval(wi, wo),
-            material.eval_over(wi, wo, &footprint),
+            material.eval_over(wi, wo, footprint),
         ];
         for (square, value) in squares.iter_mut().zip(values) {
             *square += (tone(value * wi.z) - tone(exact)).powi(2);

@@ -67,7 +67,7 @@ fn the_integral_over_beckmann_surfaces_is_the_convolution_of_ggx() {
         let (footprint, variance) = (footprint(&mut rng), uniform(&mut rng, 0.05, 0.3));
         let slope = DVec2::from_angle(uniform(&mut rng, 0.0, 6.3)) * uniform(&mut rng, 0.0, 6.0);
         let exact = convolved(|t| surface.p22(t), slope, &footprint, variance, 24);
-        let integral = gaussian::p22(&surface, footprint.covariance(variance), slope);
+        let integral = gaussian::p22(&surface, slope, footprint.covariance(variance));
         worst = worst.max((integral / exact - 1.0).abs());
     }
     assert!(worst < 1e-12, "{worst:e}");
@@ -82,7 +82,7 @@ fn the_integral_is_exact_for_all_kernels() {
         for alpha in [1.0, 1e-3] {
             let surface = Ggx::isotropic(alpha).unwrap();
             let kernel = Covariance::isotropic(0.5 * s * alpha * alpha);
-            let value = gaussian::p22(&surface, kernel, DVec2::new(q.sqrt() * alpha, 0.0)) * alpha * alpha;
+            let value = gaussian::p22(&surface, DVec2::new(q.sqrt() * alpha, 0.0), kernel) * alpha * alpha;
             worst = worst.max((value / p22 - 1.0).abs());
         }
     }
@@ -141,7 +141,7 @@ fn the_mixtures_are_as_near_to_the_convolution_as_stated() {
             let kernel = Covariance::axis_aligned(0.5 * s, 0.5 * across);
             let [xx, _, yy] = kernel.entries();
             let stretch = DVec2::new(1.0 + 2.0 * xx, 1.0 + 2.0 * yy).map(f64::sqrt);
-            let exact = |t: DVec2| gaussian::p22(&surface, kernel, t);
+            let exact = |t: DVec2| gaussian::p22(&surface, t, kernel);
             let proxy = surface.filtered(kernel).unwrap();
             let two = gaussian::filtered_by_two(&surface, kernel).unwrap();
             let seven = gaussian::filtered(&surface, kernel).unwrap();
@@ -293,14 +293,14 @@ fn what_a_filter_would_change_is_known_before() {
         beckmann_worst =
             beckmann_worst.max((beckmann.change_by_filter(kernel) / fallen - 1.0).abs().min(1e9 * fallen));
         let ggx = Ggx::anisotropic(ax, ay).unwrap();
-        let fallen = 1.0 - gaussian::p22(&ggx, kernel, DVec2::ZERO) / ggx.p22(DVec2::ZERO);
+        let fallen = 1.0 - gaussian::p22(&ggx, DVec2::ZERO, kernel) / ggx.p22(DVec2::ZERO);
         let change = ggx.change_by_filter(kernel);
         assert!(fallen > 0.999 * change - 1e-13 && fallen < 2.0 * change + 1e-13, "{fallen:e} {change:e}");
         // At any slope, where the bound is small.
         let slope = DVec2::from_angle(uniform(&mut rng, 0.0, 6.3)) * uniform(&mut rng, -6.0, 3.0).exp2();
         let bound = ggx.change_by_filter_at(slope, kernel);
         if bound < 0.1 {
-            let change = (gaussian::p22(&ggx, kernel, slope) / ggx.p22(slope) - 1.0).abs();
+            let change = (gaussian::p22(&ggx, slope, kernel) / ggx.p22(slope) - 1.0).abs();
             assert!(change <= bound + 1e-13, "{change:e} {bound:e}");
             tightest = tightest.max(change / bound);
         }
@@ -312,7 +312,7 @@ fn what_a_filter_would_change_is_known_before() {
     // it 10 is no bound.
     let far = |share: f64| {
         let (slope, kernel) = (DVec2::new(100.0, 0.0), Covariance::new(share * 1e4, 0.0, 0.0).unwrap());
-        let change = gaussian::p22(&surface, kernel, slope) / surface.p22(slope) - 1.0;
+        let change = gaussian::p22(&surface, slope, kernel) / surface.p22(slope) - 1.0;
         (change, surface.change_by_filter_at(slope, kernel))
     };
     let (change, bound) = far(1e-5);

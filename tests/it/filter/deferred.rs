@@ -169,7 +169,7 @@ fn bad_derivatives_give_the_largest_kernel() {
         for i in 0..4 {
             let mut steps = [[0.0_f32; 2]; 2];
             steps[i / 2][i % 2] = bad;
-            let footprint = Footprint::<f32>::new(steps[0].into(), steps[1].into());
+            let footprint = Footprint::<f32>::new(steps[0], steps[1]);
             assert!(near(max_eigenvalue(0.1, footprint, &kernel)), "{steps:?}");
             assert!(near(rectangle_maximum(0.1, footprint, &kernel)));
             let [x, y] = rectangle([0.1, 0.1], footprint, &kernel);

@@ -19,7 +19,7 @@ fn errors<T: Scalar>() -> [f64; 2] {
         let n: Vec<f64> = row.iter().map(|column| number(column)).collect();
         let t = |i: usize| T::lit(n[i]);
         let map = Linear::from_inverse([[t(0), t(1)], [T::ZERO, t(2)]]).unwrap();
-        let footprint = Footprint::new([t(3), t(4)].into(), [t(5), t(6)].into());
+        let footprint = Footprint::new([t(3), t(4)], [t(5), t(6)]);
         let filtered = projected::filtered(&Microsurface::new(Ggx, map), footprint, t(7)).unwrap();
         let ([xx, xy, yy], determinant) = matrix(filtered.map());
         let entries = [(xx - n[8]) / n[8], (xy - n[9]) / (n[8] * n[10]).sqrt(), (yy - n[10]) / n[10]];
@@ -53,7 +53,7 @@ fn error_along_axes<T: Scalar>() -> f64 {
             continue;
         }
         let t = |i: usize| T::lit(n[i]);
-        let footprint = Footprint::new([t(3), t(4)].into(), [t(5), t(6)].into());
+        let footprint = Footprint::new([t(3), t(4)], [t(5), t(6)]);
         let surface = Ggx::anisotropic(t(0), t(2)).unwrap();
         let unlimited = Kernel::new(t(7), T::lit(1e6)).unwrap();
         let filtered = projected::filtered_by_bounds(&surface, footprint, &unlimited).unwrap();
@@ -182,7 +182,7 @@ fn wider_kernels_make_wider_surfaces() {
 
 fn nothing_is_added_by_nothing<T: Scalar>() {
     for alpha in [1e-6, 0.03, 0.5, 0.71, 0.999, 1.0, 1.001, 30.0] {
-        let zero = Footprint::new([T::ZERO; 2].into(), [T::ZERO; 2].into());
+        let zero = Footprint::new([T::ZERO; 2], [T::ZERO; 2]);
         let surface = Ggx::anisotropic(T::lit(alpha), T::lit(0.3)).unwrap();
         let filtered = projected::filtered(&surface, zero, T::lit(0.25)).unwrap();
         let ((before, det0), (after, det1)) = (matrix(surface.map()), matrix(filtered.map()));
@@ -330,7 +330,7 @@ fn bad_input_is_refused() {
         for i in 0..4 {
             let mut steps = [[0.1, 0.2], [0.0, -0.1]];
             steps[i / 2][i % 2] = bad;
-            let footprint = Footprint::new(steps[0].into(), steps[1].into());
+            let footprint = Footprint::new(steps[0], steps[1]);
             assert!(refused(&projected::filtered(&surface, footprint, 0.25)), "{steps:?}");
             assert!(refused(&projected::filtered_tokuyoshi2017(&surface, footprint, 0.25)));
         }

@@ -34,7 +34,7 @@ fn orthonormal<T: Scalar>(frame: &Frame<T>, normal: [T; 3], roundings: f64) -> O
 }
 
 fn frames_of_normals_are_orthonormal<T: Scalar>() {
-    check(3000, anywhere::<T>(), |n| orthonormal(&Frame::from_normal(n.into()), n, 4.0));
+    check(3000, anywhere::<T>(), |n| orthonormal(&Frame::from_normal(n), n, 4.0));
 }
 
 /// Every normal within 200 ulps of both poles, along 16 azimuths.
@@ -45,7 +45,7 @@ fn frames_next_to_the_poles_are_orthonormal<T: Scalar>() {
         for k in 0..16 {
             let (s, c) = (f64::from(k) * core::f64::consts::PI / 8.0).sin_cos();
             for n in [z, -z].map(|z| [T::lit(radius * c), T::lit(radius * s), z]) {
-                orthonormal(&Frame::from_normal(n.into()), n, 4.0).expect("orthonormal");
+                orthonormal(&Frame::from_normal(n), n, 4.0).expect("orthonormal");
             }
         }
     }
@@ -62,7 +62,7 @@ fn tangents_are_followed_where_they_have_a_direction<T: Scalar>() {
             let along = if parallel { n[k].to_f64() } else { 0.0 };
             T::lit(length * (along + if parallel { angle } else { 1.0 } * t[k].to_f64()))
         });
-        let frame = Frame::from_normal_and_tangent(n.into(), t.into());
+        let frame = Frame::from_normal_and_tangent(n, t);
         orthonormal(&frame, n, 8.0)?;
         let [x, _, _]: [[T; 3]; 3] = frame.axes().map(Into::into);
         if !parallel {
@@ -84,9 +84,8 @@ fn tangents_next_to_the_normal_have_a_direction<T: Scalar>() {
     for (angle, follows) in [(1e3, true), (20.0, true), (2.0, false)] {
         let mut t = n;
         t[0] = T::lit(angle) * T::EPSILON;
-        let [x, _, _]: [[T; 3]; 3] =
-            Frame::<T>::from_normal_and_tangent(n.into(), t.into()).axes().map(Into::into);
-        let [other, _, _] = Frame::<T>::from_normal(n.into()).axes();
+        let [x, _, _]: [[T; 3]; 3] = Frame::<T>::from_normal_and_tangent(n, t).axes().map(Into::into);
+        let [other, _, _] = Frame::<T>::from_normal(n).axes();
         assert!((x[0] - T::ONE).abs() < T::lit(0.01) || !follows, "{angle}: {x:?}");
         assert!(follows || T::Vec3::from(x) == other, "{angle}: {x:?}");
     }
@@ -94,7 +93,7 @@ fn tangents_next_to_the_normal_have_a_direction<T: Scalar>() {
 
 fn steep_slopes_have_a_normal<T: Scalar>() {
     for slope in [1.0, 1e20, 1e38].into_iter().chain((T::NAME == "f64").then_some(1e300)) {
-        let m: [T; 3] = slope_to_normal::<T>([T::lit(slope), T::lit(-slope)].into()).into();
+        let m: [T; 3] = slope_to_normal([T::lit(slope), T::lit(-slope)]).into();
         let expected = unit([-1.0, 1.0, 1.0 / slope]);
         for (a, b) in m.into_iter().zip(expected) {
             near("component", a, T::lit(b), 3.0).expect("the normal");
@@ -104,7 +103,7 @@ fn steep_slopes_have_a_normal<T: Scalar>() {
 
 fn frames_come_back<T: Scalar>() {
     check(2000, (anywhere::<T>(), anywhere::<T>()), |(n, w)| {
-        let frame = Frame::<T>::from_normal(n.into());
+        let frame = Frame::<T>::from_normal(n);
         let local: [T; 3] = frame.to_local(w.into()).into();
         let world: [T; 3] = frame.to_world(local.into()).into();
         for (a, b) in world.into_iter().zip(w) {
@@ -123,7 +122,7 @@ fn frames_come_back<T: Scalar>() {
 fn slopes_come_back<T: Scalar>() {
     check(1000, strictly_above::<T>(), |m| {
         prop_assume!(m[2].to_f64() > 1e-15);
-        let back: [T; 3] = slope_to_normal::<T>(normal_to_slope::<T>(m.into())).into();
+        let back: [T; 3] = slope_to_normal::<T>(normal_to_slope(m)).into();
         for (a, b) in back.into_iter().zip(m) {
             near("component", a, b, 3.0)?;
         }
@@ -133,7 +132,7 @@ fn slopes_come_back<T: Scalar>() {
 
 fn mirror_images_are_on_the_other_side<T: Scalar>() {
     check(2000, (anywhere::<T>(), anywhere::<T>()), |(w, m)| {
-        let image: [T; 3] = reflected::<T>(w.into(), m.into()).into();
+        let image: [T; 3] = reflected(w, m).into();
         let sum: [T; 3] = core::array::from_fn(|k| image[k] + w[k]);
         let twice = T::TWO * dot(w, m);
         for (s, m) in sum.into_iter().zip(m) {

@@ -44,7 +44,7 @@ pub extern "C" fn ggx_over(alpha: f32, step: f32) -> f32 {
     let footprint = Footprint::<f32>::new(Vec2::new(step, 0.0), Vec2::new(0.0, step)).clamped(1.0);
     let convolved = gaussian::filtered(&surface, footprint.covariance(0.25)).map_or(-1.0, |s| s.d(Vec3::Z));
     let material = RoughConductor::new(surface, fresnel);
-    convolved + material.eval_over(Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.0, 0.6, 0.8), &footprint)
+    convolved + material.eval_over(Vec3::new(0.6, 0.0, 0.8), Vec3::new(0.0, 0.6, 0.8), footprint)
 }
 
 /// D of Beckmann of one direction, as a batch, or −1.

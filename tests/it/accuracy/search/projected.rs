@@ -89,7 +89,7 @@ fn errors<T: Real>(input: &Input<T>) -> [f64; 2] {
     let kernel = Matrix::of_rows(input.steps.map(|row| row.map(T::to_f64)), 2.0 * input.variance.to_f64());
     let on_disc = a.inverse().plus_identity(-1.0).inverse().plus(&kernel);
     let exact = on_disc.inverse().plus_identity(1.0).inverse();
-    let [u, v] = input.steps.map(Into::into);
+    let [u, v] = input.steps;
     let surface = Microsurface::new(Ggx, map);
     let Ok(filtered) = projected::filtered(&surface, Footprint::new(u, v), input.variance) else {
         return [f64::NAN; 2];

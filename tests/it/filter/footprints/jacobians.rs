@@ -112,10 +112,8 @@ fn entries_have_their_digits_everywhere() {
             continue;
         }
         let wide = DVec3::from_array(m.map(f64::from));
-        let exact: [DMat2; 3] =
-            [sphere_to_disk::<f64>, disk_to_slope::<f64>, sphere_to_slope::<f64>].map(|f| f(wide));
-        let single: [Mat2; 3] =
-            [sphere_to_disk::<f32>, disk_to_slope::<f32>, sphere_to_slope::<f32>].map(|f| f(m.into()));
+        let exact: [DMat2; 3] = [sphere_to_disk(wide), disk_to_slope(wide), sphere_to_slope(wide)];
+        let single: [Mat2; 3] = [sphere_to_disk(m), disk_to_slope(m), sphere_to_slope(m)];
         for ((worst, exact), single) in worst.iter_mut().zip(exact).zip(single) {
             for (e, s) in exact.to_cols_array().into_iter().zip(single.to_cols_array()) {
                 if e.abs() > f64::from(f32::MIN_POSITIVE) {
