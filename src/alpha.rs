@@ -3,9 +3,11 @@
 use crate::Real;
 use crate::error::Error;
 
-/// The smallest and the largest α that constructors accept: 2⁻³¹ … 2³¹ for f32, 2⁻²⁵⁵ … 2²⁵⁵ for f64.
+/// The smallest and the largest α that constructors accept: 2⁻³¹ … 2³¹ for f32, 2⁻²⁵⁵ … 2²⁵⁵ for
+/// f64.
 ///
-/// Within it, α⁴ and 1/α⁴ neither over- nor underflow, so that no intermediate result of an evaluation does.
+/// Within it, α⁴ and 1/α⁴ neither over- nor underflow, so that no intermediate result of an
+/// evaluation does.
 #[inline]
 #[must_use]
 pub fn alpha_range<T: Real>() -> (T, T) {
@@ -34,16 +36,18 @@ pub fn checked<T: Real>(alpha: T) -> Result<T, Error> {
 
 /// The α that [`clamped`] puts in the place of 0: 2⁻²⁰ ≈ 9.5e-7 for f32, 2⁻¹⁶⁸ for f64.
 ///
-/// A surface of it is a mirror on any display, and a density whose *square* is finite, which the power
-/// heuristic of multiple importance sampling needs. The density of reflection by visible normals is at
-/// most D(z)/(4 σ) at the horizon: 0.16/α³ for GGX, 0.29/α³ for Beckmann, 3.3/α³ for GTR of γ = 10.
+/// A surface of it is a mirror on any display, and a density whose *square* is finite, which the
+/// power heuristic of multiple importance sampling needs. The density of reflection by visible
+/// normals is at most D(z)/(4 σ) at the horizon: 0.16/α³ for GGX, 0.29/α³ for Beckmann, 3.3/α³ for
+/// GTR of γ = 10.
 #[inline]
 #[must_use]
 pub fn mirror_alpha<T: Real>() -> T {
     T::lit(if T::WIDENS { 9.5367431640625e-7 } else { 2.6727647100921956e-51 })
 }
 
-/// α limited to [[`mirror_alpha`], the largest of [`alpha_range`]]; NaN becomes the smallest of these.
+/// α limited to [[`mirror_alpha`], the largest of [`alpha_range`]]; NaN becomes the smallest of
+/// these.
 ///
 /// For callers who would rather have a mirror than an error where a texture holds 0.
 ///

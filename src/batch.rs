@@ -1,11 +1,12 @@
 //! Many directions at once, as structure of arrays: the entry points of wavefront renderers.
 //!
-//! Every method takes slices and does for each element what the method of the same name without `_batch` does for one:
-//! the same body, inlined into a loop over blocks that the compiler turns into vector code. A renderer that has sorted its
-//! hits by material calls the methods on the material; one whose material changes from element to element calls the same
-//! methods on a slice of materials of one type, `[N]`, one for each element; one whose material is textured, or filtered over
-//! the footprint of each pixel, calls them on that material [`Varied`] by slices of numbers, which is faster than a slice of
-//! materials: the numbers need no turning into lanes.
+//! Every method takes slices and does for each element what the method of the same name without
+//! `_batch` does for one: the same body, inlined into a loop over blocks that the compiler turns
+//! into vector code. A renderer that has sorted its hits by material calls the methods on the
+//! material; one whose material changes from element to element calls the same methods on a slice
+//! of materials of one type, `[N]`, one for each element; one whose material is textured, or
+//! filtered over the footprint of each pixel, calls them on that material [`Varied`] by slices of
+//! numbers, which is faster than a slice of materials: the numbers need no turning into lanes.
 //!
 //! | | |
 //! |---|---|
@@ -14,25 +15,28 @@
 //! | [`map()`] | any function: mixtures of BSDFs, means over footprints, elementary functions; [`map_inlined`] |
 //!
 //! # Domain
-//! Any length, 0 included; a length that is no multiple of the block is filled up with copies of one of its elements, so
-//! that the rest takes the same path: a batch costs whole blocks of 64, so that scalar calls are cheaper for fewer than 17 (GGX's
-//! reflection) to 35 elements (Beckmann's visible normals). An element never depends on its neighbours: NaN stays in its
-//! lane. Materials are `Copy`; one that is not is passed as `&material`. A block of samples with a view from below the horizon, a NaN,
-//! or a facet at the very edge of visibility takes twice the time of others.
+//! Any length, 0 included; a length that is no multiple of the block is filled up with copies of
+//! one of its elements, so that the rest takes the same path: a batch costs whole blocks of 64, so
+//! that scalar calls are cheaper for fewer than 17 (GGX's reflection) to 35 elements (Beckmann's
+//! visible normals). An element never depends on its neighbours: NaN stays in its lane. Materials
+//! are `Copy`; one that is not is passed as `&material`. A block of samples with a view from below
+//! the horizon, a NaN, or a facet at the very edge of visibility takes twice the time of others.
 //!
 //! # Panics
 //! Where slices differ in length, at entry: nothing has been written then. There is no other panic.
 //!
 //! # Dispatch
-//! With the feature `std`, on x86 and x86-64, the loops are compiled three times (but those that are scalar anyhow, as of GTR's
-//! visible normals) and the widest vectors that the processor has are chosen at run time: those of the build's own target,
-//! AVX2, or AVX-512. Without `std` and elsewhere the build's target decides; NEON is part of every AArch64. The first entry
-//! asks the processor, later ones read one atomic byte. A build for the processor itself (`-C target-cpu=native`) needs no
-//! choice and loses nothing by it.
+//! With the feature `std`, on x86 and x86-64, the loops are compiled three times (but those that
+//! are scalar anyhow, as of GTR's visible normals) and the widest vectors that the processor has
+//! are chosen at run time: those of the build's own target, AVX2, or AVX-512. Without `std` and
+//! elsewhere the build's target decides; NEON is part of every AArch64. The first entry asks the
+//! processor, later ones read one atomic byte. A build for the processor itself (`-C
+//! target-cpu=native`) needs no choice and loses nothing by it.
 //!
 //! # Accuracy
-//! The results are those of the scalar calls to the bit, at every level: the operations and their order are the same, and
-//! nothing is contracted to fused multiply-adds. Only the payload and sign of a NaN may differ.
+//! The results are those of the scalar calls to the bit, at every level: the operations and their
+//! order are the same, and nothing is contracted to fused multiply-adds. Only the payload and sign
+//! of a NaN may differ.
 //!
 //! # Example
 //! ```

@@ -20,16 +20,19 @@ use crate::vector::below_one;
 
 /// Beckmann slopes: D = exp(−(wm.x²/αx² + wm.y²/αy²)/wm.z²)/(π αx αy wm.z⁴).
 ///
-/// Gaussian, with a covariance of α²/2 along each axis, so that sums of surfaces and filtering are exact. The mask
-/// is exact too: with a = w.z/√(wᵀAw), A the roughness matrix,
+/// Gaussian, with a covariance of α²/2 along each axis, so that sums of surfaces and filtering are
+/// exact. The mask is exact too: with a = w.z/√(wᵀAw), A the roughness matrix,
 ///
-/// Λ = e^{−a²}/(2√π a) − ½ erfc a = e^{−a²} ierfcx(a)/(2a),  ierfcx(a) = 1/√π − a erfcx(a) = e^{a²} ∫ₐ^∞ erfc.
+/// Λ = e^{−a²}/(2√π a) − ½ erfc a = e^{−a²} ierfcx(a)/(2a),
+///
+/// ierfcx(a) = 1/√π − a erfcx(a) = e^{a²} ∫ₐ^∞ erfc.
 ///
 /// # Numerics
-/// The difference of the first form loses all digits beyond a ≈ 3 in f32 and a ≈ 6 in f64; ierfcx is evaluated by
-/// an approximation of its own and loses none. D and Λ form the exponent in f64, because an error δ of the
-/// exponent is a relative error δ of the result: at five times α, rounding the exponent to f32 alone would cost
-/// 2e-6. A subnormal D far out is 0, as is σ below the horizon where e^{−a²} is below 2⁻⁹² (f32) or 2⁻⁹⁷⁵ (f64).
+/// The difference of the first form loses all digits beyond a ≈ 3 in f32 and a ≈ 6 in f64; ierfcx
+/// is evaluated by an approximation of its own and loses none. D and Λ form the exponent in f64,
+/// because an error δ of the exponent is a relative error δ of the result: at five times α,
+/// rounding the exponent to f32 alone would cost 2e-6. A subnormal D far out is 0, as is σ below
+/// the horizon where e^{−a²} is below 2⁻⁹² (f32) or 2⁻⁹⁷⁵ (f64).
 ///
 /// # Accuracy
 /// Relative, in units of ε of the scalar, f32 / f64, the largest found by a search over α from 1e-6
@@ -40,8 +43,9 @@ use crate::vector::below_one;
 /// - σ above the horizon 4.0 / 3.8, below it 3.8 (1 + a²);
 /// - Λ 6.0 / 54 where a² ≤ 26, 0.2 / 2.6 times a² beyond; G1 4.0 / 3.7 everywhere.
 ///
-/// Visible normals: the slope along the view is the exact inverse of its distribution to 3e-8 (f32) or 2e-15 (f64) in u,
-/// at worst; both slopes are monotone in their random numbers, for f32 ulp by ulp. [`BeckmannTo1e6`] takes less time for less.
+/// Visible normals: the slope along the view is the exact inverse of its distribution to 3e-8 (f32)
+/// or 2e-15 (f64) in u, at worst; both slopes are monotone in their random numbers, for f32 ulp by
+/// ulp. [`BeckmannTo1e6`] takes less time for less.
 ///
 /// # Example
 /// ```
@@ -53,7 +57,8 @@ use crate::vector::below_one;
 /// ```
 ///
 /// # References
-/// Beckmann and Spizzichino 1963; Smith 1967; Walter, Marschner, Li and Torrance 2007, Eq. 25; Heitz 2014, §5.
+/// Beckmann and Spizzichino 1963; Smith 1967; Walter, Marschner, Li and Torrance 2007, Eq. 25;
+/// Heitz 2014, §5.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[doc(alias = "Gaussian")]
 pub struct Beckmann;
@@ -69,7 +74,8 @@ impl<T: Real> Profile<T> for Beckmann {
         let last = T::Wide::lit(if T::WIDENS { 87.0 } else { 708.0 });
         let vanished = half > last;
         let half = if vanished { last } else { half };
-        // The root of the exponential beside that of 1/z⁴: neither leaves the range before their product does.
+        // The root of the exponential beside that of 1/z⁴: neither leaves the range before their
+        // product does.
         let root = length2 / T::narrow(z2) * exp_normal_wide::<T>(-half);
         let root = if vanished { T::ZERO } else { root };
         // A subnormal D is 0: a microcode assist each would slow batches down to half their speed.
@@ -100,7 +106,8 @@ impl<T: Real> Profile<T> for Beckmann {
     }
 }
 
-/// ½ s e^{−ν²} ierfcx ν, ν = z/s, and whether ν is so large that the area counts as 0; what it is then is below 2⁻⁹² z.
+/// ½ s e^{−ν²} ierfcx ν, ν = z/s, and whether ν is so large that the area counts as 0; what it is
+/// then is below 2⁻⁹² z.
 #[inline(always)]
 fn backfacing<T: Real>(s2: T, z: T) -> (T, bool) {
     let s = s2.sqrt();
@@ -121,8 +128,9 @@ impl<T: Real> SampleProfile<T> for Beckmann {
 }
 
 impl<T: Real> SampleVisibleProfile<T> for Beckmann {
-    /// The slope along the view by inversion of its distribution from u.x, the slope across it a Gaussian from
-    /// u.y; monotone in both. A number below ε/4 counts as ε/4, so that both slopes are finite at 0.
+    /// The slope along the view by inversion of its distribution from u.x, the slope across it a
+    /// Gaussian from u.y; monotone in both. A number below ε/4 counts as ε/4, so that both slopes
+    /// are finite at 0.
     ///
     /// Heitz and d'Eon 2014, §4.1, with an inversion of our own, derived in `beckmann/visible.rs`.
     #[inline(always)]
@@ -173,12 +181,13 @@ fn shortest<T: Real>() -> T {
     T::lit(if T::WIDENS { 1.0842021724855044e-19 } else { 1.4916681462400413e-154 }) // 2⁻⁶³, 2⁻⁵¹¹
 }
 
-/// The normal with these slopes along and across the view v, whose horizontal part has the length s.
+/// The normal with these slopes along and across the view v, whose horizontal part has the length
+/// s.
 #[inline(always)]
 fn facet<T: Real>(v: [T; 3], s: T, [u1, u2]: [T; 2], [along, across]: [T; 2]) -> [T; 3] {
     let inverse = T::ONE / s;
-    // A length whose square is subnormal has lost its digits. The view is then vertical to every digit, and
-    // any direction is along it.
+    // A length whose square is subnormal has lost its digits. The view is then vertical to every
+    // digit, and any direction is along it.
     let has_direction = s >= shortest();
     let [along_x, along_y] = if has_direction { [v[0] * inverse, v[1] * inverse] } else { [T::ONE, T::ZERO] };
     // The limits of the inversion would turn a NaN into a number.
@@ -187,10 +196,11 @@ fn facet<T: Real>(v: [T; 3], s: T, [u1, u2]: [T; 2], [along, across]: [T; 2]) ->
 }
 
 impl<M: Map> Microsurface<Beckmann, M> {
-    /// Walter's rational approximation of Λ, in common use; [`lambda`](crate::Ndf::lambda) is the exact one.
+    /// Walter's rational approximation of Λ, in common use; [`lambda`](crate::Ndf::lambda) is the
+    /// exact one.
     ///
-    /// 1/G1 − 1 with the G1 of [`g1_walter2007`](Self::g1_walter2007): slightly negative just below a = 1.6 and 0
-    /// above, where the exact Λ falls like e^{−a²}.
+    /// 1/G1 − 1 with the G1 of [`g1_walter2007`](Self::g1_walter2007): slightly negative just below
+    /// a = 1.6 and 0 above, where the exact Λ falls like e^{−a²}.
     ///
     /// # Special cases
     /// w.z = 0 → ∞; w.z < 0 → −1 − Λ(−w), as of [`lambda`](crate::Ndf::lambda).
@@ -217,7 +227,8 @@ impl<M: Map> Microsurface<Beckmann, M> {
     /// w.z ≤ 0 → 0, as of [`g1`](crate::Ndf::g1).
     ///
     /// # Accuracy
-    /// max |ΔG1| = 3.11e-3, at a = 1.338; above 1 by up to 6.1e-5 from a = 1.548 to 1.6, where it steps down by 5.7e-5.
+    /// max |ΔG1| = 3.11e-3, at a = 1.338; above 1 by up to 6.1e-5 from a = 1.548 to 1.6, where it
+    /// steps down by 5.7e-5.
     ///
     /// # References
     /// Walter, Marschner, Li and Torrance 2007, Eq. 27 (after Schlick).

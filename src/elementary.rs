@@ -1,13 +1,14 @@
 //! Elementary functions, branch-free.
 //!
-//! Each function is straight-line arithmetic with selects in place of branches: no calls but the square root,
-//! no table lookups. A plain loop over a slice therefore becomes vector code, and the result of a lane does
-//! not depend on its neighbours. One generic body serves f32 and f64; only the coefficients differ
-//! (`coefficients/`), and beside each table stands the error of the approximant.
+//! Each function is straight-line arithmetic with selects in place of branches: no calls but the
+//! square root, no table lookups. A plain loop over a slice therefore becomes vector code, and the
+//! result of a lane does not depend on its neighbours. One generic body serves f32 and f64; only
+//! the coefficients differ (`coefficients/`), and beside each table stands the error of the
+//! approximant.
 //!
-//! Errors are stated in ulp of the exact result (f64) or of the result of the same function in f64 (f32),
-//! as measured by the crate's tests, which fail when a statement becomes wrong or twice too pessimistic.
-//! NaN gives NaN everywhere.
+//! Errors are stated in ulp of the exact result (f64) or of the result of the same function in f64
+//! (f32), as measured by the crate's tests, which fail when a statement becomes wrong or twice too
+//! pessimistic. NaN gives NaN everywhere.
 //!
 //! # Cost
 //! A function costs the sum of everything it may need, whatever its argument:

@@ -4,12 +4,13 @@ use core::fmt;
 
 /// Why a constructor refused its arguments; every variant names the offending value.
 ///
-/// Values are kept as f64, which holds an f32 exactly. Evaluation has no errors: it never panics and says
-/// in its documentation what it returns at the ends of its domain.
+/// Values are kept as f64, which holds an f32 exactly. Evaluation has no errors: it never panics
+/// and says in its documentation what it returns at the ends of its domain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Error {
-    /// A slope width α is not a finite number within [`alpha_range`](crate::roughness::alpha_range).
+    /// A slope width α is not a finite number within
+    /// [`alpha_range`](crate::roughness::alpha_range).
     Alpha {
         /// The α given.
         value: f64,
@@ -30,7 +31,8 @@ pub enum Error {
         /// The largest γ this constructor accepts.
         largest: f64,
     },
-    /// A roughness matrix is not finite, not positive definite, or has a principal α outside [`alpha_range`](crate::roughness::alpha_range).
+    /// A roughness matrix is not finite, not positive definite, or has a principal α outside
+    /// [`alpha_range`](crate::roughness::alpha_range).
     RoughnessMatrix {
         /// Its xx entry, α² units.
         xx: f64,
@@ -41,7 +43,8 @@ pub enum Error {
         /// Its determinant, computed without cancellation.
         determinant: f64,
     },
-    /// A covariance of slopes is not finite, not positive semidefinite, or too large to be added to a roughness.
+    /// A covariance of slopes is not finite, not positive semidefinite, or too large to be added to
+    /// a roughness.
     Covariance {
         /// Its xx entry, slope² units.
         xx: f64,

@@ -1,12 +1,13 @@
 //! Filtering of distributions: the highlight of a pixel instead of that of a point.
 //!
-//! Across a pixel the half vector moves over the slopes of the microsurface, by the curvature of the surface and by the
-//! directions to the eye and the light. Where that is more than the slopes' own width α, one sample misses the
-//! highlight or finds all of it: it shimmers. A filter averages the distribution over what the half vector covers.
+//! Across a pixel the half vector moves over the slopes of the microsurface, by the curvature of
+//! the surface and by the directions to the eye and the light. Where that is more than the slopes'
+//! own width α, one sample misses the highlight or finds all of it: it shimmers. A filter averages
+//! the distribution over what the half vector covers.
 //!
-//! **1. What does the half vector cover?** A [`Footprint`], the steps of the half vector per pixel, in slopes or in the
-//! projected space of m.xy: from derivatives ([`jacobian::HalfVector`]), of rays ([`ray::RayDifferential`]) or of pixels
-//! ([`quad::Quad`]).
+//! **1. What does the half vector cover?** A [`Footprint`], the steps of the half vector per pixel,
+//! in slopes or in the projected space of m.xy: from derivatives ([`jacobian::HalfVector`]), of
+//! rays ([`ray::RayDifferential`]) or of pixels ([`quad::Quad`]).
 //!
 //! **2. Which filter?**
 //!
@@ -28,12 +29,13 @@
 //! (`tests/it/filter/ball.rs`). Take one of these two for GGX where highlights are smaller than
 //! pixels.
 //!
-//! **3. Is it needed?** [`Microsurface::change_by_filter`](crate::Microsurface::change_by_filter) and
-//! [`change_by_filter_at`](crate::Microsurface::change_by_filter_at) bound what is lost without.
+//! **3. Is it needed?** [`Microsurface::change_by_filter`](crate::Microsurface::change_by_filter)
+//! and [`change_by_filter_at`](crate::Microsurface::change_by_filter_at) bound what is lost
+//! without.
 //!
 //! Many pixels at once, as structures of arrays: [`batch::Varied`](crate::batch::Varied) by
-//! [`Filtered`](crate::batch::Filtered) or [`FilteredProjected`](crate::batch::FilteredProjected), and
-//! [`batch::map`](crate::batch::map()) for all others.
+//! [`Filtered`](crate::batch::Filtered) or [`FilteredProjected`](crate::batch::FilteredProjected),
+//! and [`batch::map`](crate::batch::map()) for all others.
 //!
 //! # Example
 //! One pixel, from the camera's ray to radiance: a ball of polished metal, lit by a point.
@@ -63,14 +65,15 @@
 //! ```
 //!
 //! # Units
-//! Slopes are tangents of angles, dimensionless; a footprint is in slopes per pixel, a [`Covariance`] Σ in slopes², and a
-//! roughness matrix A, in units of α², is twice the covariance of a Gaussian surface: hence A + 2Σ.
+//! Slopes are tangents of angles, dimensionless; a footprint is in slopes per pixel, a
+//! [`Covariance`] Σ in slopes², and a roughness matrix A, in units of α², is twice the covariance
+//! of a Gaussian surface: hence A + 2Σ.
 //!
 //! # References
-//! Kaplanyan, Hill, Patney and Lefohn 2016, "Filtering distributions of normals for shading antialiasing"; Tokuyoshi
-//! 2017, "Error reduction and simplification for shading anti-aliasing"; Tokuyoshi and Kaplanyan 2019, "Improved geometric
-//! specular antialiasing", and 2021, "Stable geometric specular antialiasing with projected-space NDF filtering",
-//! JCGT 10(2).
+//! Kaplanyan, Hill, Patney and Lefohn 2016, "Filtering distributions of normals for shading
+//! antialiasing"; Tokuyoshi 2017, "Error reduction and simplification for shading anti-aliasing";
+//! Tokuyoshi and Kaplanyan 2019, "Improved geometric specular antialiasing", and 2021, "Stable
+//! geometric specular antialiasing with projected-space NDF filtering", JCGT 10(2).
 
 pub mod deferred;
 mod footprint;

@@ -1,6 +1,7 @@
 //! Shading frames, angles, and normals as slopes.
 //!
-//! Everywhere else in the crate directions are in the local frame: x and y along the tangents, z along the normal.
+//! Everywhere else in the crate directions are in the local frame: x and y along the tangents, z
+//! along the normal.
 
 use crate::real::{Real, Vector};
 use crate::vector::{dot, normalized};
@@ -24,15 +25,16 @@ pub struct Frame<T: Real> {
 }
 
 impl<T: Real> Frame<T> {
-    /// A frame about a unit normal, its tangents arbitrary but smooth in the normal except across z = 0.
+    /// A frame about a unit normal, its tangents arbitrary but smooth in the normal except across
+    /// z = 0.
     ///
     /// # Accuracy
-    /// Orthonormal to 3ε for every normal, those next to −z included: s = copysign(1, n.z) keeps 1 + |n.z| away from
-    /// 0, where the branching form of Frisvad 2012 loses all digits.
+    /// Orthonormal to 3ε for every normal, those next to −z included: s = copysign(1, n.z) keeps
+    /// 1 + |n.z| away from 0, where the branching form of Frisvad 2012 loses all digits.
     ///
     /// # References
-    /// Duff, Burgess, Christensen, Hery, Kensler, Liani and Villemin 2017, "Building an orthonormal basis,
-    /// revisited", JCGT 6(1).
+    /// Duff, Burgess, Christensen, Hery, Kensler, Liani and Villemin 2017, "Building an orthonormal
+    /// basis, revisited", JCGT 6(1).
     #[inline]
     #[must_use]
     pub fn from_normal(normal: impl Vector<3, Scalar = T>) -> Self {
@@ -53,8 +55,8 @@ impl<T: Real> Frame<T> {
     /// The tangent may have any length.
     ///
     /// # Special cases
-    /// A tangent that is zero, not finite, or within 8ε of the direction of the normal has no such part: the frame
-    /// of [`from_normal`](Self::from_normal) comes back.
+    /// A tangent that is zero, not finite, or within 8ε of the direction of the normal has no such
+    /// part: the frame of [`from_normal`](Self::from_normal) comes back.
     #[inline]
     #[must_use]
     pub fn from_normal_and_tangent(
@@ -64,13 +66,15 @@ impl<T: Real> Frame<T> {
         let normal = T::Vec3::from(normal.components());
         let tangent = T::Vec3::from(tangent.components());
         let (n, t): ([T; 3], [T; 3]) = (normal.into(), tangent.into());
-        // Over its largest component, whose inverse may overflow: the square of its length is a number.
+        // Over its largest component, whose inverse may overflow: the square of its length is a
+        // number.
         let largest = t[0].abs().max(t[1].abs()).max(t[2].abs());
         let t = t.map(|c| c / largest);
         let along = dot(n, t);
         let across = [t[0] - along * n[0], t[1] - along * n[1], t[2] - along * n[2]];
         let length2 = dot(across, across);
-        // The subtraction leaves an error of about ε|t|: what is no longer than a few of it has no direction.
+        // The subtraction leaves an error of about ε|t|: what is no longer than a few of it has no
+        // direction.
         let margin = T::lit(64.0) * T::EPSILON * T::EPSILON * dot(t, t);
         if !(length2 > margin && length2.is_finite()) {
             return Self::from_normal(normal);

@@ -1,7 +1,8 @@
-//! Fresnel reflectances: Schlick's approximation and the exact dielectric and conductor, scalar or RGB.
+//! Fresnel reflectances: Schlick's approximation and the exact dielectric and conductor, scalar or
+//! RGB.
 //!
-//! Each takes its parameters as a [`Spectrum`], a scalar or a glam vector of three, and returns the same; a
-//! material pays for three channels only where it has three.
+//! Each takes its parameters as a [`Spectrum`], a scalar or a glam vector of three, and returns the
+//! same; a material pays for three channels only where it has three.
 
 use crate::elementary::exact::{two_product, two_sum};
 use crate::error::Error;
@@ -16,8 +17,8 @@ pub trait Fresnel {
     /// The share of unpolarised light that a facet reflects.
     ///
     /// # Domain
-    /// `cos`, the cosine between the direction and the facet's normal, 0 … 1. Values above 1 by rounding are
-    /// harmless.
+    /// `cos`, the cosine between the direction and the facet's normal, 0 … 1. Values above 1 by
+    /// rounding are harmless.
     ///
     /// # Returns
     /// 0 … 1 in every channel.
@@ -44,7 +45,8 @@ forwarded!(alloc::boxed::Box<F>, alloc::sync::Arc<F>);
 
 /// A facet that reflects everything: for furnace tests and mirrors without colour.
 ///
-/// The output cannot be inferred from an argument: `Perfect::<f32>::new()`, `Perfect::<Vec3>::new()`.
+/// The output cannot be inferred from an argument: `Perfect::<f32>::new()`,
+/// `Perfect::<Vec3>::new()`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Perfect<S>(core::marker::PhantomData<S>);
 
@@ -115,17 +117,18 @@ impl<S: Spectrum> Fresnel for Schlick<S> {
     }
 }
 
-/// The exact reflectance of a dielectric, for light coming from the side of index 1 to that of index η.
+/// The exact reflectance of a dielectric, for light coming from the side of index 1 to that of
+/// index η.
 ///
-/// With g² = η² − 1 + cos², sin² = 1 − cos²:
-/// F = ½ ((g − cos)/(g + cos))² (1 + ((g cos − sin²)/(g cos + sin²))²), and 1 where g² < 0, total
-/// internal reflection. Where g − cos would cancel it is (η² − 1)/(g + cos). g² is a sum of exact squares.
+/// With g² = η² − 1 + cos², sin² = 1 − cos²: F = ½ ((g − cos)/(g + cos))² (1 + ((g cos − sin²)/(g
+/// cos + sin²))²), and 1 where g² < 0, total internal reflection. Where g − cos would cancel it is
+/// (η² − 1)/(g + cos). g² is a sum of exact squares.
 ///
 /// # Accuracy
 /// Absolute: 4 ε, at η of a thousand and more. This is the largest found by a search over all η and
-/// cosines (`tests/it/accuracy/search/fresnel.rs`, budget row `fresnel_dielectric`). The arguments are
-/// taken as exact: at the critical angle F has an infinite slope, and rounding the cosine itself moves F
-/// by √ε.
+/// cosines (`tests/it/accuracy/search/fresnel.rs`, budget row `fresnel_dielectric`). The arguments
+/// are taken as exact: at the critical angle F has an infinite slope, and rounding the cosine
+/// itself moves F by √ε.
 ///
 /// # Special cases
 /// η = 1 → 0 at every angle. η below ε and η above 1/ε → 1, the limits.
@@ -148,7 +151,8 @@ pub struct Dielectric<S> {
 }
 
 impl<S: Spectrum> Dielectric<S> {
-    /// A dielectric of relative index η = n_inside/n_outside, seen from outside. For the way out take 1/η.
+    /// A dielectric of relative index η = n_inside/n_outside, seen from outside. For the way out
+    /// take 1/η.
     ///
     /// # Errors
     /// [`Error::RefractiveIndex`] unless every channel is positive and finite.
@@ -238,13 +242,13 @@ impl<S: Spectrum> Fresnel for Dielectric<S> {
 
 /// The exact reflectance of a conductor of complex index n + ik, seen from air or vacuum.
 ///
-/// With a² + b² = |ε − sin²|, a the real part of √(ε − sin²), ε = (n + ik)²:
-/// R_s = ((a − cos)² + b²)/((a + cos)² + b²) and R_p = R_s ((a cos − sin²)² + b² cos²)/((a cos + sin²)² + b² cos²).
+/// With a² + b² = |ε − sin²|, a the real part of √(ε − sin²), ε = (n + ik)²: R_s = ((a − cos)² +
+/// b²)/((a + cos)² + b²) and R_p = R_s ((a cos − sin²)² + b² cos²)/((a cos + sin²)² + b² cos²).
 ///
 /// # Accuracy
 /// Absolute: 4.5 ε, the largest found by a search over all n, k and cosines
-/// (`tests/it/accuracy/search/fresnel.rs`, budget row `fresnel_conductor`). The arguments are taken as
-/// exact. At k = 0 it is a [`Dielectric`].
+/// (`tests/it/accuracy/search/fresnel.rs`, budget row `fresnel_conductor`). The arguments are taken
+/// as exact. At k = 0 it is a [`Dielectric`].
 ///
 /// # Example
 /// Copper reflects red.
@@ -268,9 +272,9 @@ impl<S: Spectrum> Conductor<S> {
     /// A conductor of refractive index n and extinction coefficient k per channel.
     ///
     /// # Errors
-    /// [`Error::RefractiveIndex`] unless every n is positive and at most 10⁹, [`Error::Extinction`] unless
-    /// every k is within 0 … 10⁹: their fourth powers must be finite. Measured ones are below 300; a
-    /// mirror is [`Perfect`].
+    /// [`Error::RefractiveIndex`] unless every n is positive and at most 10⁹, [`Error::Extinction`]
+    /// unless every k is within 0 … 10⁹: their fourth powers must be finite. Measured ones are
+    /// below 300; a mirror is [`Perfect`].
     pub fn new(n: S, k: S) -> Result<Self, Error> {
         let (zero, largest) = (S::Scalar::ZERO, S::Scalar::lit(1e9));
         check(
@@ -309,7 +313,8 @@ impl<S: Spectrum> Fresnel for Conductor<S> {
         let cos2 = cos * cos;
         let sin2 = (one - cos) * (one + cos);
         self.n.zip(self.k, |n, k| {
-            // p + iq = ε − sin², and its root a + ib: the larger of a², b² by a sum, the other by q = 2ab.
+            // p + iq = ε − sin², and its root a + ib: the larger of a², b² by a sum, the other by
+            // q = 2ab.
             let p = square_less_sine(n, cos) - k * k;
             let q = n * k + n * k;
             let larger = half * ((p * p + q * q).sqrt() + p.abs());
@@ -320,8 +325,8 @@ impl<S: Spectrum> Fresnel for Conductor<S> {
             let r_s = (square(a - cos) + b2) / (square(a + cos) + b2);
             let ratio = (square(a * cos - sin2) + b2 * cos2) / (square(a * cos + sin2) + b2 * cos2);
             let f = half * (r_s + r_s * ratio);
-            // ε − sin² vanishes only at k = 0 and the critical angle, where all is reflected unless there is no
-            // surface.
+            // ε − sin² vanishes only at k = 0 and the critical angle, where all is reflected unless
+            // there is no surface.
             let critical = if n == one { zero } else { one };
             if a2 + b2 < S::Scalar::MIN_POSITIVE { critical } else { at_most_one(f) }
         })

@@ -12,11 +12,13 @@ use crate::vector::below_one;
 
 /// GGX (Trowbridge–Reitz) slopes: D = 1/(π αx αy (wm.x²/αx² + wm.y²/αy² + wm.z²)²).
 ///
-/// The normals of an ellipsoid, with tails that fall as θ⁻⁴. Masking: σ(w) = ½(w.z + √(w.z² + wᵀAw)).
+/// The normals of an ellipsoid, with tails that fall as θ⁻⁴. Masking: σ(w) = ½(w.z + √(w.z² +
+/// wᵀAw)).
 ///
 /// # Numerics
-/// D is formed from wm.x, wm.y and α rather than from 1 − wm.z², which in f32 is wrong by a factor 47 at α = 1e-4.
-/// Λ is t/(2(1 + √(1 + t))), t = wᵀAw/w.z²: the textbook's (√(1 + t) − 1)/2 is 0 in f32 for t < 1e-7.
+/// D is formed from wm.x, wm.y and α rather than from 1 − wm.z², which in f32 is wrong by a factor
+/// 47 at α = 1e-4. Λ is t/(2(1 + √(1 + t))), t = wᵀAw/w.z²: the textbook's (√(1 + t) − 1)/2 is 0 in
+/// f32 for t < 1e-7.
 ///
 /// # Accuracy
 /// Relative, in units of ε of the scalar, f32 / f64, the largest found by a search over α from 1e-6
@@ -37,8 +39,8 @@ use crate::vector::below_one;
 /// ```
 ///
 /// # References
-/// Trowbridge and Reitz 1975; Walter, Marschner, Li and Torrance 2007, Eq. 33; Heitz 2014; visible normals by
-/// spherical caps: Dupuy and Benyoub 2023, doi:10.1111/cgf.14867.
+/// Trowbridge and Reitz 1975; Walter, Marschner, Li and Torrance 2007, Eq. 33; Heitz 2014; visible
+/// normals by spherical caps: Dupuy and Benyoub 2023, doi:10.1111/cgf.14867.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[doc(alias = "TrowbridgeReitz")]
 pub struct Ggx;
@@ -53,8 +55,8 @@ impl<T: Real> Profile<T> for Ggx {
         map.scale() * (ratio * ratio)
     }
 
-    /// A power of two brings the sum of squares into [1, 2), so that its square in the denominator takes nothing out of
-    /// range; that costs less than to divide twice.
+    /// A power of two brings the sum of squares into [1, 2), so that its square in the denominator
+    /// takes nothing out of range; that costs less than to divide twice.
     #[inline(always)]
     fn d_times<M: Map<Scalar = T>>(&self, map: &M, m: [T; 3], length2: T, [n, d]: [T; 2]) -> T {
         let (q, z2) = map.normal_terms(m);
@@ -94,11 +96,11 @@ impl<T: Real> SampleProfile<T> for Ggx {
 }
 
 impl<T: Real> SampleVisibleProfile<T> for Ggx {
-    /// A point c uniform on the spherical cap c.z ≥ −v.z of the normalised v, azimuth 2π u.x and height by u.y; the
-    /// normal is c + v.
+    /// A point c uniform on the spherical cap c.z ≥ −v.z of the normalised v, azimuth 2π u.x and
+    /// height by u.y; the normal is c + v.
     ///
-    /// Written for |v| (c + v), nothing is divided and nothing cancels: with ℓ = |v| and p = ℓ + v.z, its height is
-    /// (1 − u.y) p and the radius of ℓ c is √(u.y ((1 − u.y) p² + v.x² + v.y²)).
+    /// Written for |v| (c + v), nothing is divided and nothing cancels: with ℓ = |v| and p = ℓ +
+    /// v.z, its height is (1 − u.y) p and the radius of ℓ c is √(u.y ((1 − u.y) p² + v.x² + v.y²)).
     #[inline(always)]
     fn sample_visible(&self, v: [T; 3], s2: T, u: [T; 2]) -> [T; 3] {
         // From below p = s²/(ℓ − v.z).

@@ -1,13 +1,13 @@
 //! GTR, the generalised distribution of Trowbridge and Reitz, with a tail of any weight.
 //!
-//! D ∝ 1/(α² cos²θ + sin²θ)^γ: γ = 2 is GGX, γ < 2 has heavier tails, γ > 2 lighter ones, γ = 1 is the Berry
-//! distribution, and γ = 0 or α = 1 does not depend on the angle. It is not shape-invariant: α and the map are
-//! different things, and a stretched GTR is no GTR of another α.
+//! D ∝ 1/(α² cos²θ + sin²θ)^γ: γ = 2 is GGX, γ < 2 has heavier tails, γ > 2 lighter ones, γ = 1 is
+//! the Berry distribution, and γ = 0 or α = 1 does not depend on the angle. It is not
+//! shape-invariant: α and the map are different things, and a stretched GTR is no GTR of another α.
 //!
-//! The density ([`Density`]) is one formula for every γ. What the papers leave open, its mask and its visible normals,
-//! follows from one fact: GTR is a positive mixture, over widths between α and 1, of GGX (γ ≤ 2) or of GTR of the next
-//! integer exponent, and areas and visible normals of a mixture are those of its components. Masking comes in
-//! kinds, the second parameter of [`Gtr`]:
+//! The density ([`Density`]) is one formula for every γ. What the papers leave open, its mask and
+//! its visible normals, follows from one fact: GTR is a positive mixture, over widths between α and
+//! 1, of GGX (γ ≤ 2) or of GTR of the next integer exponent, and areas and visible normals of a
+//! mixture are those of its components. Masking comes in kinds, the second parameter of [`Gtr`]:
 //!
 //! | constructor | γ | max \|ΔG1\| | kind, and what it holds |
 //! |---|---|---|---|
@@ -49,15 +49,18 @@ use crate::vector::below_one;
 
 /// GTR slopes with the masking of kind `K`.
 ///
-/// D = c/(α² wm.z² + wm.x² + wm.y²)^γ with c = (γ−1)(α²−1)/(π(1 − α^{2−2γ})), whose limits at γ = 1 and α = 1 are
-/// reached smoothly; under a map, c (z² + q)^{γ−2}/(q + α² z²)^γ, see [`crate::profile`].
+/// D = c/(α² wm.z² + wm.x² + wm.y²)^γ with c = (γ−1)(α²−1)/(π(1 − α^{2−2γ})), whose limits at γ = 1
+/// and α = 1 are reached smoothly; under a map, c (z² + q)^{γ−2}/(q + α² z²)^γ, see
+/// [`crate::profile`].
 ///
 /// # Numerics
-/// The power is taken of (q/α² + z²)/(q + z²) ∈ [1, 1/α²], formed in f64, and scaled by the density at the pole, so
-/// that nothing overflows for any γ. γ − 1 enters only through y/(eʸ − 1) with y = (γ − 1) ln α².
+/// The power is taken of (q/α² + z²)/(q + z²) ∈ [1, 1/α²], formed in f64, and scaled by the density
+/// at the pole, so that nothing overflows for any γ. γ − 1 enters only through y/(eʸ − 1) with y =
+/// (γ − 1) ln α².
 ///
-/// The product of α and the width of the map wants to stay within [`alpha_range`](crate::roughness::alpha_range), which
-/// constructors check of each alone: below it, G2 of denormal cosines can be NaN.
+/// The product of α and the width of the map wants to stay within
+/// [`alpha_range`](crate::roughness::alpha_range), which constructors check of each alone: below
+/// it, G2 of denormal cosines can be NaN.
 ///
 /// # Accuracy
 /// Relative, in units of ε of the scalar, f32 / f64, the largest found by a search over α from 1e-6
@@ -66,16 +69,16 @@ use crate::vector::below_one;
 /// 10: σ 12 / 12 and 30 / 28, Λ 28 / 30, G1 12 / 13.
 ///
 /// # References
-/// Burley 2012, "Physically-based shading at Disney", Appendix B; Dimov 2015; Atanasov, Koylazov, Dimov and
-/// Wilkie 2022, Eqs. 32–39.
+/// Burley 2012, "Physically-based shading at Disney", Appendix B; Dimov 2015; Atanasov, Koylazov,
+/// Dimov and Wilkie 2022, Eqs. 32–39.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gtr<T: Real, K> {
     density: Density<T>,
     masking: K,
 }
 
-/// The usual surface of GTR: what [`Gtr::isotropic`] and, under other maps, [`Gtr::anisotropic`] and
-/// [`Gtr::rotated`] return.
+/// The usual surface of GTR: what [`Gtr::isotropic`] and, under other maps, [`Gtr::anisotropic`]
+/// and [`Gtr::rotated`] return.
 ///
 /// # Example
 /// ```
@@ -250,7 +253,8 @@ pub struct Density<T: Real> {
     gamma: T,
     /// π D at the pole.
     peak: T,
-    /// 1/(1 − γ) and v^{1−γ} − 1 at the ends of the range of v, where the other end is 1: see [`Self::sample`].
+    /// 1/(1 − γ) and v^{1−γ} − 1 at the ends of the range of v, where the other end is 1: see
+    /// [`Self::sample`].
     inv_one_minus_gamma: T::Wide,
     to_horizon: T::Wide,
     to_pole: T::Wide,
@@ -259,8 +263,8 @@ pub struct Density<T: Real> {
     scaled_range: T::Wide,
 }
 
-/// Nearer to γ = 1 than this, γ counts as this far from it: what is computed from γ − 1 agrees with the limit to
-/// (γ − 1) ln α² < 2⁻⁵⁰, the rounding of f64. 2⁻⁶⁰.
+/// Nearer to γ = 1 than this, γ counts as this far from it: what is computed from γ − 1 agrees with
+/// the limit to (γ − 1) ln α² < 2⁻⁵⁰, the rounding of f64. 2⁻⁶⁰.
 const LIMIT_EXCESS: f64 = 8.673617379884035e-19;
 
 /// α^{2γ−2} and its inverse are representable in f64 up to this exponent.
@@ -275,7 +279,8 @@ fn width<T: Real>(alpha: T) -> Result<T, Error> {
     if alpha > T::ONE { Err(Error::AlphaAboveOne { value: alpha.to_f64() }) } else { Ok(alpha) }
 }
 
-/// 1 − α² and ln α². α = 1 counts as the next smaller width, whose distribution differs by its rounding.
+/// 1 − α² and ln α². α = 1 counts as the next smaller width, whose distribution differs by its
+/// rounding.
 #[inline(always)]
 pub(crate) fn range_and_log(alpha: f64) -> (f64, f64) {
     let range = ((1.0 - alpha) * (1.0 + alpha)).max(f64::EPSILON);
@@ -287,7 +292,8 @@ impl<T: Real> Density<T> {
     /// The density of width α and tail exponent γ.
     ///
     /// # Errors
-    /// [`Error::Alpha`] or [`Error::AlphaAboveOne`] unless 0 < α ≤ 1, [`Error::Gamma`] unless γ ≥ 0 and
+    /// [`Error::Alpha`] or [`Error::AlphaAboveOne`] unless 0 < α ≤ 1, [`Error::Gamma`] unless γ ≥ 0
+    /// and
     /// |γ − 1| ≤ 700/|ln α²|: at least 10 for every α ≥ 1e-16.
     pub fn new(alpha: T, gamma: T) -> Result<Self, Error> {
         let alpha = width(alpha)?;
@@ -346,10 +352,12 @@ impl<T: Real> Density<T> {
         (sum, [q + alpha2 * z2, alpha2 * sum])
     }
 
-    /// `scale` `length2`² π c (z² + q)^{γ−2}/(q + α²z²)^γ, with z² + q and the [`ratio`](Self::ratio) to the power −γ/2.
+    /// `scale` `length2`² π c (z² + q)^{γ−2}/(q + α²z²)^γ, with z² + q and the
+    /// [`ratio`](Self::ratio) to the power −γ/2.
     #[inline(always)]
     fn homogeneous(&self, scale: T, length2: T, sum: T::Wide, root_of_power: T) -> T {
-        // The root of the power: at α = 1e-6 and γ = 4 the power itself underflows in f32 where D does not.
+        // The root of the power: at α = 1e-6 and γ = 4 the power itself underflows in f32 where D
+        // does not.
         let root = length2 / T::narrow(sum) * root_of_power;
         // The scale of a narrow map first: root² alone may overflow where D does not.
         (scale * self.peak) * root * root
@@ -357,9 +365,9 @@ impl<T: Real> Density<T> {
 
     /// A normal of density D cos θ, of any length: sin²θ by inversion from u.x, azimuth 2π u.y.
     ///
-    /// With v = sin²θ + α² cos²θ ∈ [α², 1], v^{1−γ} is uniform (Burley 2012, Eq. B.2). The sine follows from v/α²
-    /// and the cosine from v, each by way of eˣ − 1 and ln(1 + x), so that neither pole nor horizon cancels and
-    /// γ = 1 needs no case of its own.
+    /// With v = sin²θ + α² cos²θ ∈ [α², 1], v^{1−γ} is uniform (Burley 2012, Eq. B.2). The sine
+    /// follows from v/α² and the cosine from v, each by way of eˣ − 1 and ln(1 + x), so that
+    /// neither pole nor horizon cancels and γ = 1 needs no case of its own.
     #[inline(always)]
     fn sample(&self, [u1, u2]: [T; 2]) -> [T; 3] {
         let u = below_one(u1).widen();

@@ -1,13 +1,15 @@
 //! Linear maps of the tangent plane under which a profile is seen, one type for each cost.
 //!
 //! A map M moves the points of the microsurface; normals pull back by Mᵀ, directions by M⁻¹:
-//! D(wm) = |det M| P(|Mᵀ wm_xy|², wm.z²) and σ(w) = σ_P(|M⁻¹ w_xy|², w.z). Every type stores the inverse
-//! R = M⁻¹, in units of slope width: R = α for an isotropic surface, and A = RᵀR is the roughness matrix.
-//! Since a profile is isotropic, only RᵀR matters and R can be kept upper triangular: three numbers.
+//! D(wm) = |det M| P(|Mᵀ wm_xy|², wm.z²) and σ(w) = σ_P(|M⁻¹ w_xy|², w.z). Every type stores the
+//! inverse R = M⁻¹, in units of slope width: R = α for an isotropic surface, and A = RᵀR is the
+//! roughness matrix. Since a profile is isotropic, only RᵀR matters and R can be kept upper
+//! triangular: three numbers.
 //!
-//! To save multiplications and rounding, normals are pulled back by the *unimodular* part of M: with
-//! ρ² = |det R|, [`Map::normal_terms`] returns q̂ = ρ²|Mᵀ m_xy|² and ẑ² = ρ² m.z², and
-//! D = ρ² P(q̂, ẑ²). For an isotropic map q̂ is x² + y², whatever α. The 1/π that every P contains is kept with ρ².
+//! To save multiplications and rounding, normals are pulled back by the *unimodular* part of M:
+//! with ρ² = |det R|, [`Map::normal_terms`] returns q̂ = ρ²|Mᵀ m_xy|² and ẑ² = ρ² m.z², and D = ρ²
+//! P(q̂, ẑ²). For an isotropic map q̂ is x² + y², whatever α. The 1/π that every P contains is kept
+//! with ρ².
 
 mod axis_aligned;
 mod gram;
@@ -45,8 +47,9 @@ pub trait Map: sealed::Sealed + Copy {
     /// (q̂, ẑ²) = ρ²·(|Mᵀ m_xy|², m.z²).
     fn normal_terms(&self, m: [Self::Scalar; 3]) -> (Self::Scalar, Self::Scalar);
 
-    /// The same in the wide scalar, from the stored α and the components of m without any rounding to the
-    /// narrow one. Where a density is steep in q̂/ẑ², the rounding of the ratio is the error of the density.
+    /// The same in the wide scalar, from the stored α and the components of m without any rounding
+    /// to the narrow one. Where a density is steep in q̂/ẑ², the rounding of the ratio is the error
+    /// of the density.
     fn normal_terms_wide(
         &self,
         m: [Self::Scalar; 3],

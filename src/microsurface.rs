@@ -9,12 +9,13 @@ use crate::profile::staged::StagedProfile;
 use crate::profile::{Profile, SampleProfile, SampleVisibleProfile};
 use crate::vector::{dot, normalized, positive_part};
 
-/// A microsurface: the isotropic slope profile `P` seen through the linear map `M` of the tangent plane.
+/// A microsurface: the isotropic slope profile `P` seen through the linear map `M` of the tangent
+/// plane.
 ///
-/// Anisotropy, roughness matrices and transforms of the microsurface are all maps, so whatever a profile can do
-/// it can do under each of them, and transforming a surface gives a surface again. The type of the map is its
-/// cost: [`Isotropic`](crate::Isotropic) (one number), [`AxisAligned`](crate::AxisAligned) (two),
-/// [`Linear`] (three).
+/// Anisotropy, roughness matrices and transforms of the microsurface are all maps, so whatever a
+/// profile can do it can do under each of them, and transforming a surface gives a surface again.
+/// The type of the map is its cost: [`Isotropic`](crate::Isotropic) (one number),
+/// [`AxisAligned`](crate::AxisAligned) (two), [`Linear`] (three).
 ///
 /// # Example
 /// ```
@@ -55,10 +56,11 @@ impl<P, M> Microsurface<P, M> {
 }
 
 impl<P, M: Map> Microsurface<P, M> {
-    /// The roughness matrix A = RᵀR of the map, R = M⁻¹, to the last bit: the surface of it has the same map.
+    /// The roughness matrix A = RᵀR of the map, R = M⁻¹, to the last bit: the surface of it has the
+    /// same map.
     ///
-    /// It is the roughness of the whole surface for the shape-invariant profiles (GGX, Beckmann), whose own width
-    /// is 1; for GTR it is what the map does to the profile.
+    /// It is the roughness of the whole surface for the shape-invariant profiles (GGX, Beckmann),
+    /// whose own width is 1; for GTR it is what the map does to the profile.
     ///
     /// # Errors
     /// Never at present: every map is held.
@@ -85,14 +87,15 @@ impl<P, T: Real> From<Microsurface<P, AxisAligned<T>>> for Microsurface<P, Linea
 }
 
 impl<P: Copy, M: Map> Microsurface<P, M> {
-    /// The microsurface moved by `matrix`: every point p of the tangent plane goes to `matrix`·p, heights stay.
+    /// The microsurface moved by `matrix`: every point p of the tangent plane goes to `matrix`·p,
+    /// heights stay.
     ///
     /// D_M(wm) = |det M|/|Mᵀwm|⁴ · D(Mᵀwm/|Mᵀwm|), with M the matrix extended by 1 for the height.
     /// `s.transformed(a)?.transformed(b)?` is `s.transformed(b * a)?`.
     ///
     /// # Errors
-    /// [`Error::Map`], with the determinant of `matrix`, if it is singular or not finite or takes a principal α
-    /// out of [`alpha_range`](crate::roughness::alpha_range).
+    /// [`Error::Map`], with the determinant of `matrix`, if it is singular or not finite or takes a
+    /// principal α out of [`alpha_range`](crate::roughness::alpha_range).
     ///
     /// # Example
     /// Stretching a surface to twice its length along x makes it half as rough along x.
@@ -113,8 +116,9 @@ impl<P: Copy, M: Map> Microsurface<P, M> {
         Ok(Microsurface::new(self.profile, moved(&self.map, matrix)?))
     }
 
-    /// The microsurface stretched along x and compressed along y for s > 0, the other way round for s < 0: moved
-    /// by diag(1/(1−s), 1−s) or diag(1+s, 1/(1+s)). A ratio of 5/2 along and 2/5 across is s = 0.6.
+    /// The microsurface stretched along x and compressed along y for s > 0, the other way round for
+    /// s < 0: moved by diag(1/(1−s), 1−s) or diag(1+s, 1/(1+s)). A ratio of 5/2 along and 2/5
+    /// across is s = 0.6.
     ///
     /// # Errors
     /// [`Error::Stretch`] unless −1 < s < 1, [`Error::Map`] where a principal α leaves its range.
@@ -260,9 +264,9 @@ impl<P: StagedProfile<M::Scalar>, M: Map> StagedVndf for Microsurface<P, M> {
 
 /// A vector along m, of any length, turned towards w where rounding had turned it away.
 ///
-/// The facets at the edge of visibility have w·m = 0; a sample there may come out behind by the rounding of the
-/// sum, and would have no density. Nearly all samples are farther from the edge than that, which one comparison
-/// tells.
+/// The facets at the edge of visibility have w·m = 0; a sample there may come out behind by the
+/// rounding of the sum, and would have no density. Nearly all samples are farther from the edge
+/// than that, which one comparison tells.
 #[inline(always)]
 pub(crate) fn turned_into_view<T: Real>(w: [T; 3], m: [T; 3]) -> [T; 3] {
     if in_view(w, m) { m } else { turned_from_the_edge(w, m) }
@@ -272,16 +276,17 @@ pub(crate) fn turned_into_view<T: Real>(w: [T; 3], m: [T; 3]) -> [T; 3] {
 #[inline(always)]
 pub(crate) fn in_view<T: Real>(w: [T; 3], m: [T; 3]) -> bool {
     let (w_m, length2) = (dot(w, m), dot(m, m));
-    // 16ε|m| bounds the rounding of w·m, here and once more by whoever uses the sample: 3ε Σ|terms| ≤ 3√3 ε|m| each.
-    // Squares that are no normal numbers tell nothing.
+    // 16ε|m| bounds the rounding of w·m, here and once more by whoever uses the sample: 3ε Σ|terms|
+    // ≤ 3√3 ε|m| each. Squares that are no normal numbers tell nothing.
     let edge = T::lit(256.0) * T::EPSILON * T::EPSILON * length2 + T::MIN_POSITIVE;
     w_m * w_m.abs() > edge
 }
 
-/// The same for a facet near the edge of visibility, whose m may be the difference of two equal vectors.
+/// The same for a facet near the edge of visibility, whose m may be the difference of two equal
+/// vectors.
 ///
-/// It is moved towards w to w·m of 8ε of the terms of the sum, and at least 2⁻⁶⁴ (f32) or 2⁻⁵¹² (f64) of the length
-/// where all terms vanish. It is long enough for its square to be a number.
+/// It is moved towards w to w·m of 8ε of the terms of the sum, and at least 2⁻⁶⁴ (f32) or 2⁻⁵¹²
+/// (f64) of the length where all terms vanish. It is long enough for its square to be a number.
 #[inline(always)]
 fn turned_from_the_edge<T: Real>(w: [T; 3], m: [T; 3]) -> [T; 3] {
     let sum_of_magnitudes = |v: [T; 3]| v[0].abs() + v[1].abs() + v[2].abs();
@@ -333,16 +338,16 @@ macro_rules! shape_invariant {
                 Ok(crate::Microsurface::new(Self, crate::map::AxisAligned::new(alpha_x, alpha_y)?))
             }
 
-            /// The distribution of slope widths α = `alpha_x` along the direction at `angle` radians from x, and
-            /// `alpha_y` across it.
+            /// The distribution of slope widths α = `alpha_x` along the direction at `angle`
+            /// radians from x, and `alpha_y` across it.
             ///
             /// No α is squared, so every ratio of the widths is held; see
             /// [`RoughnessMatrix::rotated`](crate::RoughnessMatrix::rotated).
             ///
             /// # Errors
             /// [`Error::Alpha`](crate::Error::Alpha) unless both are within
-            /// [`alpha_range`](crate::roughness::alpha_range), [`Error::Parameter`](crate::Error::Parameter)
-            /// if the angle is not finite.
+            /// [`alpha_range`](crate::roughness::alpha_range),
+            /// [`Error::Parameter`](crate::Error::Parameter) if the angle is not finite.
             #[inline]
             pub fn rotated<T: crate::Real>(
                 alpha_x: T,
@@ -352,7 +357,8 @@ macro_rules! shape_invariant {
                 Ok(Self::from_roughness_matrix(crate::RoughnessMatrix::rotated(alpha_x, alpha_y, angle)?))
             }
 
-            /// The distribution of a roughness matrix A: slope widths that differ along any two directions.
+            /// The distribution of a roughness matrix A: slope widths that differ along any two
+            /// directions.
             #[inline]
             #[must_use]
             pub fn from_roughness_matrix<T: crate::Real>(
@@ -369,7 +375,8 @@ pub(crate) use shape_invariant;
 mod tests {
     use super::*;
 
-    /// The edge of [`in_view`] is at w·m = 16 ε|m|, and what is nearer is turned to 8 ε of its terms.
+    /// The edge of [`in_view`] is at w·m = 16 ε|m|, and what is nearer is turned to 8 ε of its
+    /// terms.
     fn facets_within_16_roundings_of_the_edge_are_turned<T: Real>() {
         let w = [T::lit(0.6), T::ZERO, T::lit(0.8)];
         for length in [1.0, 1e-6, 1e6].map(T::lit) {

@@ -1,4 +1,5 @@
-//! The traits of a normal distribution function: evaluation, and sampling of all or of visible normals.
+//! The traits of a normal distribution function: evaluation, and sampling of all or of visible
+//! normals.
 
 pub(crate) mod forwarded;
 pub(crate) mod staged;
@@ -13,10 +14,10 @@ pub type Vec3<N> = <<N as Ndf>::Scalar as Real>::Vec3;
 
 /// A normal distribution function of a microsurface under Smith's assumption.
 ///
-/// Directions are unit vectors of the local frame, z up, pointing away from the surface: `wo` to the viewer,
-/// `wi` to the light, `wm` a micronormal, `w` either of the first two. The quantities follow from two:
-/// the density D and the projected area σ(w) = ∫ D(wm) max(0, w·wm) dwm = w.z (1 + Λ(w)). Because σ stays finite
-/// at the horizon, nothing here divides by a cosine.
+/// Directions are unit vectors of the local frame, z up, pointing away from the surface: `wo` to
+/// the viewer, `wi` to the light, `wm` a micronormal, `w` either of the first two. The quantities
+/// follow from two: the density D and the projected area σ(w) = ∫ D(wm) max(0, w·wm) dwm = w.z (1 +
+/// Λ(w)). Because σ stays finite at the horizon, nothing here divides by a cosine.
 ///
 /// | method | quantity | reference |
 /// |---|---|---|
@@ -28,11 +29,12 @@ pub type Vec3<N> = <<N as Ndf>::Scalar as Real>::Vec3;
 /// | [`vndf`](Self::vndf) | density of visible normals D_w(wm) | Heitz 2014, Eq. 16 |
 ///
 /// # Special cases
-/// NaN in any argument gives NaN, unless another number alone makes the result 0, such as a z below the horizon.
-/// Vectors that are not of unit length give meaningless numbers, never a panic.
+/// NaN in any argument gives NaN, unless another number alone makes the result 0, such as a z below
+/// the horizon. Vectors that are not of unit length give meaningless numbers, never a panic.
 ///
 /// # Example
-/// A distribution of one's own needs two functions; masking, visible-normal density and the rest follow.
+/// A distribution of one's own needs two functions; masking, visible-normal density and the rest
+/// follow.
 /// ```
 /// use microsurface::{Ggx, Ndf, glam::Vec3};
 /// /// Half of the surface smooth, half rough.
@@ -60,7 +62,8 @@ pub trait Ndf {
     /// wm.z < 0 → 0: no facet of a heightfield looks down.
     fn d(&self, wm: Vec3<Self>) -> Self::Scalar;
 
-    /// The projected area σ(w) = ∫ D(wm) max(0, w·wm) dwm of the facets seen from w, without dimension.
+    /// The projected area σ(w) = ∫ D(wm) max(0, w·wm) dwm of the facets seen from w, without
+    /// dimension.
     ///
     /// Defined on the whole sphere; σ(w) − σ(−w) = w.z.
     ///
@@ -96,8 +99,8 @@ pub trait Ndf {
 
     /// D in the direction of a vector that need not be normalised, such as the half vector wi + wo.
     ///
-    /// A [`Microsurface`](crate::Microsurface) needs neither a square root nor a normalisation for it: its D is
-    /// homogeneous.
+    /// A [`Microsurface`](crate::Microsurface) needs neither a square root nor a normalisation for
+    /// it: its D is homogeneous.
     ///
     /// # Domain
     /// h.z ≥ 0, |h|² not overflowing and at least 2⁻⁶⁴ (f32) or 2⁻⁵¹² (f64).
@@ -157,8 +160,8 @@ pub trait Ndf {
 
     /// Height-correlated masking and shadowing G2 = χ⁺ χ⁺ / (1 + Λ(wi) + Λ(wo)) of reflection.
     ///
-    /// Evaluated as z/(σ(w) + z/z′ σ(w′) − z), with z the lower of both cosines: their product, which may underflow long
-    /// before the result, is not formed.
+    /// Evaluated as z/(σ(w) + z/z′ σ(w′) − z), with z the lower of both cosines: their product,
+    /// which may underflow long before the result, is not formed.
     ///
     /// # Returns
     /// 0 … min(G1(wi), G1(wo)), above it by at most 4 ε of rounding, and never above 1.
@@ -183,18 +186,19 @@ pub trait Ndf {
         if zi <= Self::Scalar::ZERO || zo <= Self::Scalar::ZERO { Self::Scalar::ZERO } else { visible * g2 }
     }
 
-    /// Separable masking and shadowing G1(wi, wm) G1(wo, wm): darker than [`g2`](Self::g2), which it bounds from
-    /// below.
+    /// Separable masking and shadowing G1(wi, wm) G1(wo, wm): darker than [`g2`](Self::g2), which
+    /// it bounds from below.
     #[inline(always)]
     fn g2_separable(&self, wi: Vec3<Self>, wo: Vec3<Self>, wm: Vec3<Self>) -> Self::Scalar {
         self.g1(wi, wm) * self.g1(wo, wm)
     }
 
-    /// The density D_w(wm) = max(0, w·wm) D(wm)/σ(w) of the normals visible from w, 1/sr; it integrates to 1.
+    /// The density D_w(wm) = max(0, w·wm) D(wm)/σ(w) of the normals visible from w, 1/sr; it
+    /// integrates to 1.
     ///
     /// # Domain
-    /// w on the whole sphere, as far below the horizon as σ(w) ≥ 2⁻⁶³ (f32) or 2⁻⁵¹¹ (f64): nearer to the nadir
-    /// nothing is visible to the precision of the scalar.
+    /// w on the whole sphere, as far below the horizon as σ(w) ≥ 2⁻⁶³ (f32) or 2⁻⁵¹¹ (f64): nearer
+    /// to the nadir nothing is visible to the precision of the scalar.
     ///
     /// # Special cases
     /// Where σ is 0 (w = −z) → 0.
@@ -218,8 +222,8 @@ pub(crate) fn cosine_scale<T: Real>() -> T {
     T::lit(if T::WIDENS { 1099511627776.0 } else { 1.8971375900641885e81 })
 }
 
-/// zi zo/G2 = zo σ(wi) + zi σ(wo) − zi zo, times [`cosine_scale`]: above 0 for every positive cosine, where the
-/// products themselves may be too small to be numbers.
+/// zi zo/G2 = zo σ(wi) + zi σ(wo) − zi zo, times [`cosine_scale`]: above 0 for every positive
+/// cosine, where the products themselves may be too small to be numbers.
 #[inline(always)]
 pub(crate) fn masked_cosines<T: Real>(zi: T, zo: T, sigma_i: T, sigma_o: T) -> T {
     let (scaled_i, scaled_o) = (cosine_scale::<T>() * zi, cosine_scale::<T>() * zo);
@@ -247,11 +251,12 @@ pub trait SampleNdf: Ndf {
 
 /// Sampling of the normals visible from a direction; the density is [`Ndf::vndf`].
 pub trait SampleVndf: Ndf {
-    /// A micronormal visible from `w`, of density [`vndf(w, ·)`](Ndf::vndf), from two random numbers.
+    /// A micronormal visible from `w`, of density [`vndf(w, ·)`](Ndf::vndf), from two random
+    /// numbers.
     ///
     /// # Domain
-    /// w as for [`vndf`](Ndf::vndf); u ∈ [0, 1]²: 1, which some generators round to, counts as the number
-    /// below it.
+    /// w as for [`vndf`](Ndf::vndf); u ∈ [0, 1]²: 1, which some generators round to, counts as the
+    /// number below it.
     ///
     /// # Returns
     /// A unit vector with z ≥ 0 and w·wm > 0.

@@ -1,7 +1,7 @@
 //! Isotropic slope profiles: what the distributions differ in.
 //!
-//! A profile is two homogeneous functions, of which everything else is made: the density P(q, z²) and the
-//! projected area σ_P(s², z). Under a map M of the tangent plane (see [`crate::map`])
+//! A profile is two homogeneous functions, of which everything else is made: the density P(q, z²)
+//! and the projected area σ_P(s², z). Under a map M of the tangent plane (see [`crate::map`])
 //!
 //! D(wm) = |det M| P(|Mᵀ wm_xy|², wm.z²),  σ(w) = σ_P(|M⁻¹ w_xy|², w.z).
 //!
@@ -21,8 +21,8 @@ use crate::ndf::masked_cosines;
 
 /// An isotropic slope profile.
 ///
-/// Implement it to add a distribution that lives under every map; implement [`Ndf`](crate::Ndf) directly for one
-/// that is not an isotropic profile.
+/// Implement it to add a distribution that lives under every map; implement [`Ndf`](crate::Ndf)
+/// directly for one that is not an isotropic profile.
 pub trait Profile<T: Real>: Copy {
     /// |m|⁴ |det M| P(|Mᵀ m_xy|², m.z²): D in the direction of m, whose squared length is `length2`.
     ///
@@ -30,8 +30,8 @@ pub trait Profile<T: Real>: Copy {
     /// m.z ≥ 0, m ≠ 0.
     fn d<M: Map<Scalar = T>>(&self, map: &M, m: [T; 3], length2: T) -> T;
 
-    /// [`d`](Self::d) times a positive fraction, numerator and denominator: for profiles whose D is a quotient, one for
-    /// both.
+    /// [`d`](Self::d) times a positive fraction, numerator and denominator: for profiles whose D is
+    /// a quotient, one for both.
     #[inline(always)]
     fn d_times<M: Map<Scalar = T>>(&self, map: &M, m: [T; 3], length2: T, fraction: [T; 2]) -> T {
         self.d(map, m, length2) * fraction[0] / fraction[1]
@@ -46,7 +46,8 @@ pub trait Profile<T: Real>: Copy {
         masked_cosines(z_i, z_o, self.sigma_above(s2_i, z_i), self.sigma_above(s2_o, z_o))
     }
 
-    /// The projected area of the facets that look away, z Λ = σ_P(s², z) − z = σ_P(s², −z), for z ≥ 0.
+    /// The projected area of the facets that look away, z Λ = σ_P(s², z) − z = σ_P(s², −z), for z
+    /// ≥ 0.
     ///
     /// Evaluated without the cancellation of that difference.
     fn sigma_backfacing(&self, s2: T, z: T) -> T;
@@ -69,8 +70,10 @@ pub trait SampleProfile<T: Real>: Profile<T> {
 
 /// A profile whose visible normals can be drawn.
 pub trait SampleVisibleProfile<T: Real>: Profile<T> {
-    /// A normal of the profile itself (map I), of any length, visible from `v`, a vector of any length.
+    /// A normal of the profile itself (map I), of any length, visible from `v`, a vector of any
+    /// length.
     ///
-    /// `s2` is v.x² + v.y² to rounding, the very number that [`sigma_above`](Profile::sigma_above) gets, so that both share one root.
+    /// `s2` is v.x² + v.y² to rounding, the very number that [`sigma_above`](Profile::sigma_above)
+    /// gets, so that both share one root.
     fn sample_visible(&self, v: [T; 3], s2: T, u: [T; 2]) -> [T; 3];
 }

@@ -1,7 +1,8 @@
 //! The scalar types, f32 and f64, and the glam vectors that belong to each.
 //!
-//! Every formula of the crate has one generic body over [`Real`]. This is also the one file where the
-//! square root and the constructor-time functions are taken from `std` or from the `libm` crate.
+//! Every formula of the crate has one generic body over [`Real`]. This is also the one file where
+//! the square root and the constructor-time functions are taken from `std` or from the `libm`
+//! crate.
 
 use core::fmt::{Debug, Display};
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -13,8 +14,8 @@ compile_error!("microsurface needs one of the features `std` (the default) or `l
 
 /// A scalar: f32 or f64. Sealed.
 ///
-/// Vectors are converted to arrays where components are needed (`let [x, y, z]: [T; 3] = w.into();`),
-/// which costs nothing once compiled.
+/// Vectors are converted to arrays where components are needed (`let [x, y, z]: [T; 3] =
+/// w.into();`), which costs nothing once compiled.
 pub trait Real:
     Bits
     + Spectrum<Scalar = Self>

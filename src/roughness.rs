@@ -1,7 +1,7 @@
 //! Maps from artists' parameters to slope widths α, each named after its source.
 //!
-//! `alpha` is always the slope width α of the mathematics; `roughness`, `sharpness` and `anisotropy` are
-//! artists' parameters that the functions here turn into α.
+//! `alpha` is always the slope width α of the mathematics; `roughness`, `sharpness` and
+//! `anisotropy` are artists' parameters that the functions here turn into α.
 
 use crate::Real;
 pub use crate::alpha::{alpha_range, checked, clamped, mirror_alpha};
@@ -25,8 +25,8 @@ fn within<T: Real>(x: T, smallest: f64, largest: f64) -> T {
 /// α = r²: perceptually even steps of the artist's roughness r ∈ (0, 1].
 ///
 /// # Errors
-/// [`Error::Parameter`] unless 0 ≤ r ≤ 1, [`Error::Alpha`] where r² is below [`alpha_range`]. For textures
-/// take [`alpha_burley2012_clamped`].
+/// [`Error::Parameter`] unless 0 ≤ r ≤ 1, [`Error::Alpha`] where r² is below [`alpha_range`]. For
+/// textures take [`alpha_burley2012_clamped`].
 ///
 /// # References
 /// Burley 2012, "Physically-based shading at Disney", §5.4; also Unreal, Filament, Bevy, OpenPBR.
@@ -57,8 +57,8 @@ pub fn alpha_burley2012_clamped<T: Real>(roughness: T) -> T {
 /// α = √r: pbrt-v4's roughness.
 ///
 /// # Errors
-/// [`Error::Parameter`] unless r ≥ 0, [`Error::Alpha`] where √r is outside [`alpha_range`]. For textures take
-/// [`alpha_pbrt4_clamped`].
+/// [`Error::Parameter`] unless r ≥ 0, [`Error::Alpha`] where √r is outside [`alpha_range`]. For
+/// textures take [`alpha_pbrt4_clamped`].
 ///
 /// # References
 /// Pharr, Jakob and Humphreys 2023, "Physically Based Rendering", §9.6.
@@ -81,8 +81,8 @@ pub fn alpha_pbrt4_clamped<T: Real>(roughness: T) -> T {
 /// α = (1 − s)²: V-Ray's sharpness (glossiness) s ∈ [0, 1).
 ///
 /// # Errors
-/// [`Error::Parameter`] unless 0 ≤ s ≤ 1, [`Error::Alpha`] where (1 − s)² is below [`alpha_range`], as at
-/// s = 1, a mirror. For textures take [`alpha_dimov2015_clamped`].
+/// [`Error::Parameter`] unless 0 ≤ s ≤ 1, [`Error::Alpha`] where (1 − s)² is below [`alpha_range`],
+/// as at s = 1, a mirror. For textures take [`alpha_dimov2015_clamped`].
 ///
 /// # References
 /// Dimov 2015, §7.
@@ -106,8 +106,8 @@ pub fn alpha_dimov2015_clamped<T: Real>(sharpness: T) -> T {
 /// α = √(2/(n + 2)): the Beckmann width that resembles a Blinn–Phong exponent n ≥ 0.
 ///
 /// # Errors
-/// [`Error::Parameter`] unless n is finite and at least 0, [`Error::Alpha`] where α is below [`alpha_range`]:
-/// from n = 9.2e18 on for f32, 6.7e153 for f64.
+/// [`Error::Parameter`] unless n is finite and at least 0, [`Error::Alpha`] where α is below
+/// [`alpha_range`]: from n = 9.2e18 on for f32, 6.7e153 for f64.
 ///
 /// # References
 /// Walter, Marschner, Li and Torrance 2007, §5.2.
@@ -120,8 +120,8 @@ pub fn alpha_walter2007<T: Real>(exponent: T) -> Result<T, Error> {
 /// [αx, αy] = [r²/k, r² k] with aspect k = √(1 − 0.9 a), a ∈ [0, 1].
 ///
 /// # Errors
-/// [`Error::Parameter`] for r or a outside [0, 1], [`Error::Alpha`] where an α is below [`alpha_range`]. For
-/// textures take [`alphas_burley2012_clamped`].
+/// [`Error::Parameter`] for r or a outside [0, 1], [`Error::Alpha`] where an α is below
+/// [`alpha_range`]. For textures take [`alphas_burley2012_clamped`].
 ///
 /// # References
 /// Burley 2012, §5.4.
@@ -147,8 +147,8 @@ fn burley2012<T: Real>(r: T, a: T) -> [T; 2] {
 /// [αx, αy] = [r² (1 + a), r² (1 − a)], a ∈ (−1, 1): negative values turn the highlight by 90°.
 ///
 /// # Errors
-/// [`Error::Parameter`] for r outside [0, 1] or a outside [−1, 1], [`Error::Alpha`] where an α vanishes. For
-/// textures take [`alphas_kulla2017_clamped`].
+/// [`Error::Parameter`] for r outside [0, 1] or a outside [−1, 1], [`Error::Alpha`] where an α
+/// vanishes. For textures take [`alphas_kulla2017_clamped`].
 ///
 /// # References
 /// Kulla and Conty 2017, "Revisiting physically based shading at Imageworks"; also Filament.
@@ -158,7 +158,8 @@ pub fn alphas_kulla2017<T: Real>(roughness: T, anisotropy: T) -> Result<[T; 2], 
     both_checked(kulla2017(r, parameter("anisotropy", anisotropy, -1.0, 1.0)?))
 }
 
-/// [αx, αy] of a texel: [`alphas_kulla2017`] of r limited to [0, 1] and a to [−1, 1], each α [`clamped`].
+/// [αx, αy] of a texel: [`alphas_kulla2017`] of r limited to [0, 1] and a to [−1, 1], each α
+/// [`clamped`].
 ///
 /// Where one α vanishes, at a = ±1, the other is kept.
 ///
@@ -186,8 +187,8 @@ fn kulla2017<T: Real>(r: T, a: T) -> [T; 2] {
 /// [αx, αy] = [r² √(2/(1 + b²)), r² b √(2/(1 + b²))] with b = 1 − a: αx² + αy² stays 2 r⁴.
 ///
 /// # Errors
-/// [`Error::Parameter`] for r or a outside [0, 1], [`Error::Alpha`] where an α vanishes. For textures take
-/// [`alphas_openpbr_clamped`].
+/// [`Error::Parameter`] for r or a outside [0, 1], [`Error::Alpha`] where an α vanishes. For
+/// textures take [`alphas_openpbr_clamped`].
 ///
 /// # References
 /// OpenPBR Surface 1.1 specification, "Microfacet model".

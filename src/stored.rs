@@ -1,8 +1,8 @@
 //! Stored materials: the form in which serde writes and reads them.
 //!
 //! Every material is a table of a few named entries, which a person can write too. It names its
-//! distribution, so that the file of one is never read as another, and what is read is checked as by
-//! the constructors. The same tables serve JSON, TOML, RON and binary formats.
+//! distribution, so that the file of one is never read as another, and what is read is checked as
+//! by the constructors. The same tables serve JSON, TOML, RON and binary formats.
 //!
 //! ```toml
 //! version = 1                 # of this form; may be left out
@@ -39,13 +39,13 @@
 //! Entries that are not in the table are refused, so a misspelt one is an error and not a default.
 //!
 //! # What comes back
-//! A material that is written and read again is the same to the last bit, where the format keeps the
-//! digits of its numbers. Hence a general map is written as its `factor` [r11, r12, r22]: the upper
-//! triangular R of A = RᵀR, which is what it holds. Authors write `alphas` and `angle`.
+//! A material that is written and read again is the same to the last bit, where the format keeps
+//! the digits of its numbers. Hence a general map is written as its `factor` [r11, r12, r22]: the
+//! upper triangular R of A = RᵀR, which is what it holds. Authors write `alphas` and `angle`.
 //!
 //! # Versions
-//! This is version 1. A file without `version` is of version 1. A file of a later version is refused
-//! with both numbers. A later release of this crate reads version 1.
+//! This is version 1. A file without `version` is of version 1. A file of a later version is
+//! refused with both numbers. A later release of this crate reads version 1.
 //!
 //! # Example
 //! ```

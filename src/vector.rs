@@ -34,7 +34,8 @@ pub(crate) fn below_one<T: Real>(u: T) -> T {
     if u > last { last } else { u }
 }
 
-/// σ of the direction w, or w.z where rounding left it below: the facets seen are no fewer than a plane's.
+/// σ of the direction w, or w.z where rounding left it below: the facets seen are no fewer than a
+/// plane's.
 #[inline(always)]
 pub(crate) fn at_least_cosine<T: Real>([_, _, z]: [T; 3], sigma: T) -> T {
     if sigma < z { z } else { sigma }
@@ -67,7 +68,8 @@ pub(crate) fn unit_and_length<T: Real>(v: [T; 3]) -> ([T; 3], T) {
     (scaled.map(|c| c / length), largest * length)
 }
 
-/// The derivative of v/|v| where v has the derivative `step`: its part across the unit vector, over |v|.
+/// The derivative of v/|v| where v has the derivative `step`: its part across the unit vector,
+/// over |v|.
 #[inline]
 pub(crate) fn unit_step<T: Real>(unit: [T; 3], length: T, step: [T; 3]) -> [T; 3] {
     plus_scaled(step, -dot(unit, step), unit).map(|c| c / length)

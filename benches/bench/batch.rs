@@ -1,9 +1,10 @@
 //! Does a plain loop over slices become vector code?
 //!
-//! Each `slices` function below is what a user would write who keeps directions as structure of arrays: nothing of
-//! the crate but the scalar call, in a loop. Beside it stands `scalar`, the same call with every result opaque, so
-//! that it stays scalar, and the textbook's form in the same loop. What the compiler makes of them depends on the
-//! target: compare with `RUSTFLAGS="-C target-cpu=native"`.
+//! Each `slices` function below is what a user would write who keeps directions as structure of
+//! arrays: nothing of the crate but the scalar call, in a loop. Beside it stands `scalar`, the same
+//! call with every result opaque, so that it stays scalar, and the textbook's form in the same
+//! loop. What the compiler makes of them depends on the target: compare with `RUSTFLAGS="-C
+//! target-cpu=native"`.
 
 mod entry;
 mod varied;

@@ -1,8 +1,9 @@
-//! What does a filter cost per pixel: knowing the footprint, making the filtered surface, evaluating it?
+//! What does a filter cost per pixel: knowing the footprint, making the filtered surface,
+//! evaluating it?
 //!
-//! Every call has its own pixel, so that nothing of a filter is made once for many: steps of the half vector from 1e-4 to
-//! 1 in slopes, in any two directions, and a slope in or beside the footprint. The widths are about 0.01, one for each of
-//! the materials.
+//! Every call has its own pixel, so that nothing of a filter is made once for many: steps of the
+//! half vector from 1e-4 to 1 in slopes, in any two directions, and a slope in or beside the
+//! footprint. The widths are about 0.01, one for each of the materials.
 
 use core::f64::consts::TAU;
 

@@ -38,8 +38,8 @@ pub(crate) fn directions<T: Real>(n: usize, rng: &mut impl Rng) -> Vec<T::Vec3> 
     (0..n).map(|_| direction::<T>(rng).into()).collect()
 }
 
-/// One normal per call: by turns uniform over the hemisphere, where narrow distributions underflow, and drawn from
-/// the material.
+/// One normal per call: by turns uniform over the hemisphere, where narrow distributions underflow,
+/// and drawn from the material.
 pub(crate) fn normals<N: SampleNdf>(materials: &[N]) -> Vec<<N::Scalar as Real>::Vec3> {
     let mut rng = generator();
     let cycle = materials.iter().cycle().take(CALLS).enumerate();

@@ -6,13 +6,14 @@
 //! RUSTFLAGS="-C target-cpu=native" cargo bench --bench bench -- batch
 //! ```
 //!
-//! Every group holds one scalar type and compares within itself: profiles, maps, and the textbook's forms
-//! ([`textbook`]) beside the crate's. Only ratios within one run mean anything.
+//! Every group holds one scalar type and compares within itself: profiles, maps, and the textbook's
+//! forms ([`textbook`]) beside the crate's. Only ratios within one run mean anything.
 //!
-//! Outside [`batch`] and [`scaling`] a *scalar call* is measured: the function is inlined into a loop over 4096 arguments held as
-//! vectors, the material changes from call to call so that nothing of it is hoisted, and every result goes through
-//! `black_box` by itself, so that no call can be merged with its neighbour into vector code. Neighbouring calls still
-//! overlap in the processor, as they do in a renderer.
+//! Outside [`batch`] and [`scaling`] a *scalar call* is measured: the function is inlined into a
+//! loop over 4096 arguments held as vectors, the material changes from call to call so that nothing
+//! of it is hoisted, and every result goes through `black_box` by itself, so that no call can be
+//! merged with its neighbour into vector code. Neighbouring calls still overlap in the processor,
+//! as they do in a renderer.
 
 use criterion::{criterion_group, criterion_main};
 

@@ -1,4 +1,5 @@
-//! What do the projected area σ, Smith's Λ and the mask G1 cost, under which map, and beside the textbook's forms?
+//! What do the projected area σ, Smith's Λ and the mask G1 cost, under which map, and beside the
+//! textbook's forms?
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion};
@@ -32,7 +33,8 @@ impl<T: Real> Question<T> for G1<'_, '_, T> {
     }
 }
 
-/// The masks of GTR beside the spline and the closed forms that every map is asked about, isotropic.
+/// The masks of GTR beside the spline and the closed forms that every map is asked about,
+/// isotropic.
 fn each_gtr<T: Real>(question: &mut impl Question<T>) {
     for (gamma, [four, eight, twelve]) in [
         (1.5, ["gtr-4-nodes-1.5", "gtr-8-nodes-1.5", "gtr-12-nodes-1.5"]),

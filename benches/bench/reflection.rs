@@ -1,6 +1,8 @@
-//! What does single reflection cost: evaluation, density and sampling of a rough conductor with a scalar Schlick term?
+//! What does single reflection cost: evaluation, density and sampling of a rough conductor with a
+//! scalar Schlick term?
 //!
-//! GGX and Beckmann are sampled by visible normals, GTR by all normals, with or without uniform directions among them.
+//! GGX and Beckmann are sampled by visible normals, GTR by all normals, with or without uniform
+//! directions among them.
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion};
@@ -89,7 +91,8 @@ fn conductors<T: Spectrum<Scalar = T> + Real, N: Ndf<Scalar = T> + Copy, S: Copy
     surfaces.iter().map(|&surface| RoughConductor::new(surface, fresnel).sampled_by(sampling)).collect()
 }
 
-/// What is asked about a sampler, with the types of the surface and of the choice of normals hidden.
+/// What is asked about a sampler, with the types of the surface and of the choice of normals
+/// hidden.
 trait Sampler<T: Real> {
     fn pdf(&self, group: &mut BenchmarkGroup<'_, WallTime>, id: (&str, &str), pairs: &Pairs<T>);
     fn sample(&self, group: &mut BenchmarkGroup<'_, WallTime>, id: (&str, &str), draws: &Draws<T>);

@@ -1,14 +1,16 @@
-//! What an element of a batch costs as the batch grows, as threads share it, and as its materials differ, in width too.
+//! What an element of a batch costs as the batch grows, as threads share it, and as its materials
+//! differ, in width too.
 //!
 //! ```text
 //! cargo bench --bench bench -- scaling            # five minutes, and half a gigabyte for the batches of 10⁷
 //! cargo bench --bench bench -- scaling_materials  # one of scaling_{size,alpha,threads,materials}
 //! ```
 //!
-//! Short batches show the price of a call, long ones that of memory: an element reads five or six numbers and writes one
-//! or three. Two threads share a batch by halves and are started for each, as by a caller without a pool of threads. Where
-//! every element has a material of its own, copies lie in the order of the elements, so that the number of distinct ones
-//! matters only to what depends on their numbers; what is paid is their reading.
+//! Short batches show the price of a call, long ones that of memory: an element reads five or six
+//! numbers and writes one or three. Two threads share a batch by halves and are started for each,
+//! as by a caller without a pool of threads. Where every element has a material of its own, copies
+//! lie in the order of the elements, so that the number of distinct ones matters only to what
+//! depends on their numbers; what is paid is their reading.
 
 use core::hint::black_box;
 use std::thread;
@@ -104,7 +106,8 @@ impl<T: Real> Question<T> {
         criterion.benchmark_group(format!("scaling_{scaling}/{}_{}", self.name, name::<T>()))
     }
 
-    /// Times `run`. Arrays are made when it is first called, so that what is not asked for takes no memory.
+    /// Times `run`. Arrays are made when it is first called, so that what is not asked for takes no
+    /// memory.
     fn time(
         &self,
         group: &mut BenchmarkGroup<'_, WallTime>,
@@ -139,7 +142,8 @@ impl<T: Real> Question<T> {
         }
     }
 
-    /// One material of several widths: the code is the same, but not how many numbers are subnormal on the way.
+    /// One material of several widths: the code is the same, but not how many numbers are subnormal
+    /// on the way.
     fn alphas<M>(
         &self,
         criterion: &mut Criterion,
@@ -233,8 +237,8 @@ fn compiled_once<M, T>(_: &M, run: Same<M, T>) -> Same<M, T> {
     run
 }
 
-/// Everything about one batch. A macro, because the batch is a method of the material and of slices of it, and the material a
-/// type for each map.
+/// Everything about one batch. A macro, because the batch is a method of the material and of slices
+/// of it, and the material a type for each map.
 macro_rules! ask {
     ($criterion:ident, $name:literal, $arrays:ident, $profile:ident, $scalar:ty, $material:path, $run:expr) => {{
         let question = Question::<$scalar> { name: $name, arrays: Arrays::$arrays };

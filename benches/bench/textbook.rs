@@ -1,8 +1,10 @@
-//! The forms printed in papers and books, as they are commonly programmed: to compare with, not to use.
+//! The forms printed in papers and books, as they are commonly programmed: to compare with, not to
+//! use.
 //!
-//! Angles enter through the cosine alone (cos² = z², sin² = 1 − cos², tan² = sin²/cos²), Λ is a difference, G follows
-//! from two Λ, and the BRDF is F D G/(4 cos cos) of a normalised half vector. Elementary functions are those of `std`,
-//! as in most renderers, except the inverse error function, which it lacks.
+//! Angles enter through the cosine alone (cos² = z², sin² = 1 − cos², tan² = sin²/cos²), Λ is a
+//! difference, G follows from two Λ, and the BRDF is F D G/(4 cos cos) of a normalised half vector.
+//! Elementary functions are those of `std`, as in most renderers, except the inverse error
+//! function, which it lacks.
 
 use microsurface::Real;
 use microsurface::fresnel::Spectrum;
@@ -146,7 +148,8 @@ fn schlick<T: Real>(f0: T, cos: T) -> T {
     f0 + (T::ONE - f0) * (m2 * m2 * m)
 }
 
-/// F D G/(4 cos cos), Walter 2007, Eq. 20, with the height-correlated G of two Λ (Heitz 2014, Eq. 99).
+/// F D G/(4 cos cos), Walter 2007, Eq. 20, with the height-correlated G of two Λ (Heitz 2014, Eq.
+/// 99).
 #[inline(always)]
 fn reflection<T: Real>(
     f0: T,

@@ -1,8 +1,9 @@
 //! What programs that use the crate take to compile, and how large they get.
 //!
-//! Each program is a crate in `target/cost`, which depends on this one by its path and is built offline: first with all it
-//! depends on, then, touched, alone. Seconds are of the wall clock, the linker's included; an empty program shows what of
-//! them is nobody's. The size is that of code and constants, without symbols, beyond the empty program's.
+//! Each program is a crate in `target/cost`, which depends on this one by its path and is built
+//! offline: first with all it depends on, then, touched, alone. Seconds are of the wall clock, the
+//! linker's included; an empty program shows what of them is nobody's. The size is that of code and
+//! constants, without symbols, beyond the empty program's.
 
 use std::io::{self, Write};
 use std::path::Path;

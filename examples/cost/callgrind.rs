@@ -1,8 +1,9 @@
 //! Instructions, counted by Valgrind.
 //!
-//! One run under Callgrind counts all kernels: it collects while [`Kernel::counted_passes`] runs, whatever is inlined into it,
-//! and writes a file whenever that returns. Each kernel runs once with one pass over its arguments and once with two. The
-//! difference is one pass, and neither beginnings nor ends are in it.
+//! One run under Callgrind counts all kernels: it collects while [`Kernel::counted_passes`] runs,
+//! whatever is inlined into it, and writes a file whenever that returns. Each kernel runs once with
+//! one pass over its arguments and once with two. The difference is one pass, and neither
+//! beginnings nor ends are in it.
 
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -11,7 +12,8 @@ use std::process::Command;
 use crate::COUNTED;
 use crate::kernel::{Kernel, Table};
 
-/// [`Kernel::counted_passes`] as a pattern. With a star at its end too, Valgrind 3.19 heeds but one of two options for it.
+/// [`Kernel::counted_passes`] as a pattern. With a star at its end too, Valgrind 3.19 heeds but one
+/// of two options for it.
 const FUNCTION: &str = "*counted_passes";
 
 fn kernels(tables: &[Table]) -> impl Iterator<Item = &Kernel> {
@@ -26,7 +28,8 @@ pub(crate) fn count(tables: &[Table]) {
     }
 }
 
-/// Instructions per call of each kernel, in their order; `None` without Valgrind. `calls` is what the tables were made with.
+/// Instructions per call of each kernel, in their order; `None` without Valgrind. `calls` is what
+/// the tables were made with.
 pub(crate) fn instructions(tables: &[Table], calls: u32) -> io::Result<Option<Vec<f64>>> {
     let directory = Path::new("target/cost/callgrind");
     if directory.exists() {

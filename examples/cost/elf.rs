@@ -5,7 +5,8 @@ pub(crate) fn loaded(file: &[u8]) -> u64 {
     sections(file).unwrap_or(file.len() as u64)
 }
 
-/// The sum over the sections that are loaded and stored in the file; `None` unless it is a little-endian ELF of 64 bits.
+/// The sum over the sections that are loaded and stored in the file; `None` unless it is a
+/// little-endian ELF of 64 bits.
 fn sections(file: &[u8]) -> Option<u64> {
     const SHT_NOBITS: u64 = 8;
     const SHF_ALLOC: u64 = 2;

@@ -61,7 +61,8 @@ fn print(out: &mut impl Write, table: &Table, counts: &[Vec<f64>]) -> io::Result
         Claim::LinearAlike => {
             let linear = |(row, counts): (&Row, &Vec<f64>)| row.name.ends_with("linear").then_some(counts[0]);
             let linear: Vec<f64> = rows().filter_map(linear).collect();
-            // By less than an instruction: the numbers of another surface may turn another normal into view.
+            // By less than an instruction: the numbers of another surface may turn another normal
+            // into view.
             let alike = linear.iter().all(|count| (count - linear[0]).abs() < 1.0);
             writeln!(
                 out,

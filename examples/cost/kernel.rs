@@ -15,7 +15,8 @@ pub(crate) struct Arguments<T: Real> {
 }
 
 impl<T: Real> Arguments<T> {
-    /// `n` of them: directions and normals uniform over the upper hemisphere, by multiples of irrational numbers.
+    /// `n` of them: directions and normals uniform over the upper hemisphere, by multiples of
+    /// irrational numbers.
     pub(crate) fn many(n: u32) -> Rc<[Self]> {
         let direction = |u: f64, v: f64| {
             let (sin, cos) = (core::f64::consts::TAU * u).sin_cos();
@@ -47,8 +48,8 @@ impl Kernel {
         Self { run: Box::new(run), elements }
     }
 
-    /// `call` of each of the arguments, with nothing known of the material: what of a call depends on the material alone
-    /// is not moved out of the loop, and calls are not merged to vectors.
+    /// `call` of each of the arguments, with nothing known of the material: what of a call depends
+    /// on the material alone is not moved out of the loop, and calls are not merged to vectors.
     pub(crate) fn of_calls<N: 'static, A: 'static, R>(
         material: N,
         arguments: &Rc<[A]>,

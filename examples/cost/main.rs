@@ -6,8 +6,9 @@
 //! cargo run --release --example cost -- --build   # size and compile time of programs that use it, five minutes
 //! ```
 //!
-//! Prints Markdown tables. Bytes are the same on every machine of a word size; instructions are counted by Valgrind, if there is
-//! one, and are the same in every run of a binary; seconds are those of this machine.
+//! Prints Markdown tables. Bytes are the same on every machine of a word size; instructions are
+//! counted by Valgrind, if there is one, and are the same in every run of a binary; seconds are
+//! those of this machine.
 
 extern crate alloc;
 
@@ -23,7 +24,8 @@ mod kernel;
 mod memory;
 mod questions;
 
-/// The argument with which the example runs itself under Valgrind, followed by the number of arguments of a kernel.
+/// The argument with which the example runs itself under Valgrind, followed by the number of
+/// arguments of a kernel.
 pub(crate) const COUNTED: &str = "--counted-by-valgrind";
 
 fn main() -> Result<(), Box<dyn Error>> {

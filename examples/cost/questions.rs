@@ -48,8 +48,8 @@ pub(crate) fn all(calls: u32) -> Vec<Table> {
     ]
 }
 
-/// Every function of every distribution under every map: of the same distribution, in numbers the map could be spared for,
-/// so that branches are taken alike and only the maps' code differs.
+/// Every function of every distribution under every map: of the same distribution, in numbers the
+/// map could be spared for, so that branches are taken alike and only the maps' code differs.
 fn by_map<T: Real + Spectrum<Scalar = T>>(head: &'static str, arguments: &Rc<[Arguments<T>]>) -> Table {
     let (alpha, gamma) = (T::lit(ALPHA), T::lit(1.5));
     let mut rows = Vec::new();

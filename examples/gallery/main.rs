@@ -1,12 +1,13 @@
-//! Figures 1, 6 and 8 of Atanasov, Koylazov, Dimov and Wilkie 2022, "Microsurface Transformations", rendered with this
-//! crate and the tour's path tracer.
+//! Figures 1, 6 and 8 of Atanasov, Koylazov, Dimov and Wilkie 2022, "Microsurface Transformations",
+//! rendered with this crate and the tour's path tracer.
 //!
-//! `cargo run --release --example gallery` writes them to `target/gallery/` in less than a minute and prints what to
-//! look for, and two plots: what sets a transform apart from another width, and how much slopes add to the errors of a
-//! filter's derivatives. `-- --quick` makes small pictures of few samples.
+//! `cargo run --release --example gallery` writes them to `target/gallery/` in less than a minute
+//! and prints what to look for, and two plots: what sets a transform apart from another width, and
+//! how much slopes add to the errors of a filter's derivatives. `-- --quick` makes small pictures
+//! of few samples.
 //!
-//! Where to look: `plate.rs`, `bodies.rs` and `vases.rs` are a figure each, and their covers are all that a renderer
-//! has to do at a hit: `surface.transformed(m)`.
+//! Where to look: `plate.rs`, `bodies.rs` and `vases.rs` are a figure each, and their covers are
+//! all that a renderer has to do at a hit: `surface.transformed(m)`.
 #![expect(
     clippy::cast_precision_loss,
     clippy::cast_possible_truncation,

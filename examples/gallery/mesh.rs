@@ -15,10 +15,11 @@ pub(crate) struct Mesh {
 }
 
 impl Mesh {
-    /// The surface p(u, v), (u, v) ∈ [0, 1]², in columns of u and rows of v; ∂p/∂u × ∂p/∂v points outwards.
+    /// The surface p(u, v), (u, v) ∈ [0, 1]², in columns of u and rows of v; ∂p/∂u × ∂p/∂v points
+    /// outwards.
     ///
-    /// Where a side of the square is one point, a pole, there is a vertex for each column, since the direction of u is
-    /// another in each; seams are doubled in the same way.
+    /// Where a side of the square is one point, a pole, there is a vertex for each column, since
+    /// the direction of u is another in each; seams are doubled in the same way.
     pub(crate) fn of(p: impl Fn(DVec2) -> DVec3, [columns, rows]: [usize; 2]) -> Self {
         /// Derivatives are taken this far from a pole at least, where ∂p/∂u = 0.
         const FROM_POLE: f64 = 1e-3;

@@ -39,8 +39,8 @@ pub(crate) struct Curve {
     pub(crate) points: Vec<[f64; 2]>,
 }
 
-/// The curves over both axes, as far as they are between the ends of the vertical one; their names at the
-/// top, beginning at `legend`, a share of the horizontal axis.
+/// The curves over both axes, as far as they are between the ends of the vertical one; their names
+/// at the top, beginning at `legend`, a share of the horizontal axis.
 pub(crate) fn svg(horizontal: &Axis, vertical: &Axis, curves: &[Curve], legend: f64) -> String {
     let [width, height] = SIZE;
     let x = |at: f64| MARGIN + (width - 2.0 * MARGIN) * horizontal.share(at);

@@ -19,8 +19,8 @@ pub(crate) const LOOK_FOR: &str = "\
 
 const SIZE: [u32; 2] = [840, 370];
 
-/// The paper's caption has s = 5/2, which Eq. 31 does not allow; with s = 3/5 the surface is drawn out by
-/// 1/(1 − s) = 5/2 along x and compressed by 1 − s = 2/5 along y.
+/// The paper's caption has s = 5/2, which Eq. 31 does not allow; with s = 3/5 the surface is drawn
+/// out by 1/(1 − s) = 5/2 along x and compressed by 1 − s = 2/5 along y.
 const STRETCH: f32 = 0.6;
 
 /// Radius and height along the profile: up the outside, over the lip and down the inside.
@@ -56,7 +56,8 @@ fn vase(uv: DVec2) -> DVec3 {
     longitude(uv.x) * radius + DVec3::Y * height
 }
 
-/// Aluminium of this surface everywhere; the frame's x axis runs around the vase, as the brushing does.
+/// Aluminium of this surface everywhere; the frame's x axis runs around the vase, as the brushing
+/// does.
 fn brushed<N>(surface: N) -> Result<Cover, Error>
 where
     N: SampleVndf<Scalar = f32> + Copy + Sync + 'static,

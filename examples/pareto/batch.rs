@@ -1,7 +1,8 @@
 //! Scalar calls, loops and batches: what vectors save, and that they change no number.
 //!
-//! Errors of f32: relative, of reflected radiance from the same in f64 (a mask by few nodes from the same few nodes), where f64
-//! is at least 1e-30; of visible normals as in [`vndf`](crate::vndf). Beside them the textbook's forms.
+//! Errors of f32: relative, of reflected radiance from the same in f64 (a mask by few nodes from
+//! the same few nodes), where f64 is at least 1e-30; of visible normals as in
+//! [`vndf`](crate::vndf). Beside them the textbook's forms.
 
 use core::hint::black_box;
 use std::io::{self, Write};
@@ -244,7 +245,8 @@ fn errors_of_normals<M>(
     errors
 }
 
-/// A family's errors of radiance and of normals, those of the crate and of the textbook, from the family in f64.
+/// A family's errors of radiance and of normals, those of the crate and of the textbook, from the
+/// family in f64.
 fn exact_eval<N: Ndf<Scalar = f64>>(surface: N, at: [f64; 6]) -> f64 {
     let [ix, iy, iz, ox, oy, oz] = at;
     RoughConductor::new(surface, Schlick::new(f64::from(f32::lit(F0))).expect("a share"))

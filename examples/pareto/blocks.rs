@@ -1,4 +1,5 @@
-//! Functions of a few numbers of a material and a few arguments, timed as scalar calls and as loops over slices.
+//! Functions of a few numbers of a material and a few arguments, timed as scalar calls and as loops
+//! over slices.
 
 extern crate alloc;
 
@@ -22,8 +23,8 @@ type Block<T, const N: usize> = [[T; BLOCK]; N];
 #[derive(Clone)]
 pub(crate) struct Arguments<T, const N: usize>(Rc<[Block<T, N>]>);
 
-/// What is called with a material and arguments. No closure: that is inlined into only one of its callers, and a loop over
-/// calls is no vector code.
+/// What is called with a material and arguments. No closure: that is inlined into only one of its
+/// callers, and a loop over calls is no vector code.
 pub(crate) trait Call<M, T, const N: usize, const OUT: usize>: Copy + 'static {
     fn call(self, material: &M, arguments: [T; N]) -> [T; OUT];
 }
@@ -95,7 +96,8 @@ impl<T: Real, const N: usize> Arguments<T, N> {
         }
     }
 
-    /// Scalar calls, whose results are opaque and whose materials take turns, and loops over slices of a material each.
+    /// Scalar calls, whose results are opaque and whose materials take turns, and loops over slices
+    /// of a material each.
     pub(crate) fn timed<M: Clone + 'static, const OUT: usize>(
         &self,
         materials: &[M],

@@ -47,7 +47,8 @@ struct Axes {
     bottom: f64,
     fastest: f64,
     slowest: f64,
-    /// 0, or below where errors are larger than 1; in small panels such errors stand at 0, with an arrow.
+    /// 0, or below where errors are larger than 1; in small panels such errors stand at 0, with an
+    /// arrow.
     least_digits: f64,
     most_digits: f64,
 }
@@ -74,8 +75,9 @@ impl Rectangle {
     }
 }
 
-/// Dots of calls are full, those of loops empty; those of alternatives made for less than the whole range are green. Lines
-/// are the frontiers of those made for all of it, of calls drawn through and of loops dashed.
+/// Dots of calls are full, those of loops empty; those of alternatives made for less than the whole
+/// range are green. Lines are the frontiers of those made for all of it, of calls drawn through and
+/// of loops dashed.
 pub(crate) fn chart(title: &str, caption: &str, rows: &[Row]) -> String {
     let mut panels: Vec<Vec<&Row>> = Vec::new();
     for row in rows.iter().filter(|row| row.errors.known()) {

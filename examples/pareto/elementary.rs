@@ -1,7 +1,9 @@
-//! Elementary functions: the crate's, those of std and of the libm crate, and the short fits of renderers.
+//! Elementary functions: the crate's, those of std and of the libm crate, and the short fits of
+//! renderers.
 //!
-//! Errors in ulp of the exact value: of f32 from f64 functions of another origin (for the inverse and scaled error
-//! functions the crate's own, which tests hold against 50 digits), of f64 from the 50-digit tables of the tests.
+//! Errors in ulp of the exact value: of f32 from f64 functions of another origin (for the inverse
+//! and scaled error functions the crate's own, which tests hold against 50 digits), of f64 from the
+//! 50-digit tables of the tests.
 
 use std::io::{self, Write};
 

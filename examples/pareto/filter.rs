@@ -1,8 +1,9 @@
 //! GGX filtered: means over the parallelogram of a footprint, and convolutions with Gaussians.
 //!
-//! Errors are differences of P22 as a share of its peak after filtering with the same kernel: what a picture shows, in which
-//! that peak is the brightest. Every call makes its filter, as a pixel must, from its footprint or its covariance. Times
-//! are of neighbours that are unlike, which branches do not foresee; those of a picture are alike, and faster.
+//! Errors are differences of P22 as a share of its peak after filtering with the same kernel: what
+//! a picture shows, in which that peak is the brightest. Every call makes its filter, as a pixel
+//! must, from its footprint or its covariance. Times are of neighbours that are unlike, which
+//! branches do not foresee; those of a picture are alike, and faster.
 
 use std::io::{self, Write};
 

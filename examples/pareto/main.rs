@@ -6,17 +6,17 @@
 //! cargo run --release --example pareto -- --caption "CPU"   # a line below the charts
 //! ```
 //!
-//! Prints one Markdown table per question and writes it, as CSV and as an SVG chart, to `target/pareto/`. Errors are
-//! differences from f64 or 50 digits at the very numbers the function was given, so that the rounding of an argument to f32 is
-//! nobody's error:
+//! Prints one Markdown table per question and writes it, as CSV and as an SVG chart, to
+//! `target/pareto/`. Errors are differences from f64 or 50 digits at the very numbers the function
+//! was given, so that the rounding of an argument to f32 is nobody's error:
 //! - of masks absolute differences of G1 from the quadrature of [`reference`],
 //! - of filters differences of P22 from that of [`filter`]'s as a share of the filtered peak,
 //! - of samplers displacements of the normal, in units of √density ([`vndf`]),
 //! - of elementary functions ulps ([`elementary`]),
 //! - of reflection in batches and of D and σ under maps relative ([`batch`], [`maps`]).
 //!
-//! Times, of scalar calls and of loops over slices, are medians of rounds in which the alternatives take turns; only
-//! their ratios mean anything.
+//! Times, of scalar calls and of loops over slices, are medians of rounds in which the alternatives
+//! take turns; only their ratios mean anything.
 
 use core::error::Error;
 use std::io;

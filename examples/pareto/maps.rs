@@ -1,4 +1,5 @@
-//! What a map and a scalar cost: the same isotropic surfaces under each type of map, in f32 and f64, against 50-digit values.
+//! What a map and a scalar cost: the same isotropic surfaces under each type of map, in f32 and
+//! f64, against 50-digit values.
 //!
 //! Errors are relative: of D within 5 α of the normal, of σ above the horizon; GTR's σ by 8 nodes.
 

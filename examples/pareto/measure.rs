@@ -1,4 +1,5 @@
-//! Worst and mean errors, and times of alternatives that take turns: as scalar calls, and as loops over slices.
+//! Worst and mean errors, and times of alternatives that take turns: as scalar calls, and as loops
+//! over slices.
 
 use core::hint::black_box;
 use std::time::Instant;
@@ -87,8 +88,8 @@ const SLICE: usize = 128;
 
 /// Directions uniform over a hemisphere, in an order in which neighbours are unlike.
 ///
-/// Not those that errors are searched at: near the normal, where these seldom are, e^{−ν²} and powers of α² underflow,
-/// and what denormal numbers cost is no property of the method.
+/// Not those that errors are searched at: near the normal, where these seldom are, e^{−ν²} and
+/// powers of α² underflow, and what denormal numbers cost is no property of the method.
 fn arguments<T: Real>() -> Vec<T::Vec3> {
     const COUNT: u32 = 4093;
     (0..CALLS)
@@ -127,7 +128,8 @@ pub(crate) fn calls_of<A: 'static, R>(arguments: Vec<A>, call: impl Fn(&A) -> R 
     })
 }
 
-/// A run of loops as a user writes them over structures of arrays, which the compiler may make vector code of.
+/// A run of loops as a user writes them over structures of arrays, which the compiler may make
+/// vector code of.
 fn loops<T: Real, N: 'static>(materials: Vec<N>, call: impl Fn(&N, T::Vec3) -> T + 'static) -> Run {
     let arrays: Vec<[T; 3]> = arguments::<T>().into_iter().map(Into::into).collect();
     let [x, y, z] = [0, 1, 2].map(|axis| arrays.iter().map(|w| w[axis]).collect::<Vec<T>>());

@@ -1,7 +1,7 @@
 //! Masks by quadrature in f64, independent of the crate.
 //!
-//! Both integrands have one sign, so that the trapezoid rule keeps all digits, and are analytic in a strip about the
-//! real axis, so that it converges as e^{−2π·width/step}.
+//! Both integrands have one sign, so that the trapezoid rule keeps all digits, and are analytic in
+//! a strip about the real axis, so that it converges as e^{−2π·width/step}.
 
 use std::io::{self, Write};
 
@@ -13,7 +13,8 @@ use microsurface::{Gtr, Ndf};
 /// (1/(ν√π)) ∫₀^∞ x e^{−(x+ν)²} dx with x = eˢ: a strip of width π/4.
 pub(crate) fn lambda_beckmann(nu: f64) -> f64 {
     const STEP: f64 = 0.1;
-    // Below e^{−20}, x² is nothing beside the integral; above, x + ν exceeds 27 and the integrand is 0.
+    // Below e^{−20}, x² is nothing beside the integral; above, x + ν exceeds 27 and the integrand
+    // is 0.
     let scale = 1.0 / nu.max(1.0);
     let sum: f64 = (-220..=36)
         .map(|i| {
@@ -30,10 +31,9 @@ const MOST: usize = 9;
 
 /// A GTR as a mixture of Student-t profiles, whose masks are elementary.
 ///
-/// For n ≥ 0 with p = n + 2 − γ > 0,
-/// (x + 1)^{γ−2} (x + A)^{−γ} ∝ Σₖ C(n, k) ∫ (t − A)^{p−1} (1 − t)^{γ−1+k} (x + t)^{−(k+2)} dt over [A, 1], A = α².
-/// With t = A + (1 − A)/(1 + e^{−s}) the strip is π wide. Its poles are of order γ + p + n: step ½
-/// leaves 1e-13, step ¼ rounding alone.
+/// For n ≥ 0 with p = n + 2 − γ > 0, (x + 1)^{γ−2} (x + A)^{−γ} ∝ Σₖ C(n, k) ∫ (t − A)^{p−1} (1 −
+/// t)^{γ−1+k} (x + t)^{−(k+2)} dt over [A, 1], A = α². With t = A + (1 − A)/(1 + e^{−s}) the strip
+/// is π wide. Its poles are of order γ + p + n: step ½ leaves 1e-13, step ¼ rounding alone.
 pub(crate) struct Mixture {
     n: usize,
     components: Vec<Component>,
@@ -59,7 +59,8 @@ impl Mixture {
             mixture.push(1.0, 0.0, 1.0);
         } else {
             const STEP: f64 = 0.25;
-            // Where A is small, most of the mass is at t of the order of A: the tail is cut 40 beyond.
+            // Where A is small, most of the mass is at t of the order of A: the tail is cut 40
+            // beyond.
             let mut s = -((40.0 - a.ln()) / p / STEP).ceil() * STEP;
             while s < 40.0 / gamma {
                 let (rise, fall) = (1.0 / (1.0 + (-s).exp()), 1.0 / (1.0 + s.exp()));
@@ -90,8 +91,8 @@ impl Mixture {
 
     /// Λ at squared sine `s2` and cosine `z`, of a vector of any length.
     ///
-    /// With r = √(z² + t s²), c = z/r and ρ = 1 − c², the profile of exponent k + 2 has z Λₖ = ½ r Tₖ,
-    /// Tₖ = Σ aᵢ ρⁱ over i > k: Tₙ in closed form, the others by adding what it lacks.
+    /// With r = √(z² + t s²), c = z/r and ρ = 1 − c², the profile of exponent k + 2 has z Λₖ = ½ r
+    /// Tₖ, Tₖ = Σ aᵢ ρⁱ over i > k: Tₙ in closed form, the others by adding what it lacks.
     pub(crate) fn lambda(&self, s2: f64, z: f64) -> f64 {
         let (denominator, numerators) = REMAINDERS[self.n];
         let terms = self.components.iter().map(|&Component { t, weights }| {
@@ -129,8 +130,8 @@ const ROOT_SERIES: [f64; MOST + 1] = [
     715.0 / 65536.0,
 ];
 
-/// Row n: Tₙ/(1 − c)^{n+1} as a polynomial in c, by exact division of polynomials: its denominator, and its numerators
-/// from c⁰.
+/// Row n: Tₙ/(1 − c)^{n+1} as a polynomial in c, by exact division of polynomials: its denominator,
+/// and its numerators from c⁰.
 const REMAINDERS: [(f64, &[f64]); MOST + 1] = [
     (1.0, &[1.0]),
     (2.0, &[1.0]),
@@ -152,7 +153,8 @@ fn number(n: usize) -> f64 {
 /// 50-digit masks, by integrals over slopes and closed forms.
 const TABLE: &str = include_str!("../../tests/reference/masking_gtr.tsv");
 
-/// The largest relative difference of Λ from the table in the upper hemisphere, for α ≥ 0.001; and of how many values.
+/// The largest relative difference of Λ from the table in the upper hemisphere, for α ≥ 0.001; and
+/// of how many values.
 ///
 /// Without γ just below an integer above 1, where the trapezoid rule is long: no question has them.
 fn from_table() -> (f64, u32) {
@@ -185,7 +187,8 @@ fn from_closed<const G: u8>() -> f64 {
     worst
 }
 
-/// Compares the quadratures with what is known otherwise, and prints the largest relative differences of Λ.
+/// Compares the quadratures with what is known otherwise, and prints the largest relative
+/// differences of Λ.
 pub(crate) fn validate(out: &mut impl Write) -> io::Result<()> {
     let closed = [from_closed::<1>(), from_closed::<2>(), from_closed::<3>(), from_closed::<4>()]
         .into_iter()

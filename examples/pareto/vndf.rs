@@ -1,9 +1,11 @@
-//! Samplers of visible normals: how far rounding, tolerances and fits move their normals, and what they cost.
+//! Samplers of visible normals: how far rounding, tolerances and fits move their normals, and what
+//! they cost.
 //!
-//! A sampler is a map of two random numbers onto normals. Its error is the distance of its normal, from the f32 numbers it
-//! was given, to that of the same map in f64, times the root of the density there: a patch of normals that a share p of the
-//! random numbers falls on is about √p wide in this measure, whatever the roughness and the view. Views lie between the
-//! normal and 1e-6 above the horizon, and an eighth of the random numbers at the ends of their range.
+//! A sampler is a map of two random numbers onto normals. Its error is the distance of its normal,
+//! from the f32 numbers it was given, to that of the same map in f64, times the root of the density
+//! there: a patch of normals that a share p of the random numbers falls on is about √p wide in this
+//! measure, whatever the roughness and the view. Views lie between the normal and 1e-6 above the
+//! horizon, and an eighth of the random numbers at the ends of their range.
 
 use std::io::{self, Write};
 
@@ -108,7 +110,8 @@ impl<'a> Samplers<'a> {
         }
     }
 
-    /// Adds a sampler in f32, one material for each of [`ALPHAS`]; `exact` is its map in f64 and the density there.
+    /// Adds a sampler in f32, one material for each of [`ALPHAS`]; `exact` is its map in f64 and
+    /// the density there.
     fn single<M: Clone + 'static>(
         &mut self,
         name: &str,

@@ -44,7 +44,8 @@ impl Claims {
 
         let ggx = study.material == "GGX";
         let rmse = |name| row(name).errors.rmse;
-        // The mean over the parallelogram has a closed form for GGX, the convolution with a Gaussian for Beckmann.
+        // The mean over the parallelogram has a closed form for GGX, the convolution with a
+        // Gaussian for Beckmann.
         let (analytic, quad) =
             if ggx { (ANALYTIC_PARALLELOGRAM, PARALLELOGRAM) } else { (ANALYTIC_BOX, BOX) };
         let claim = format!("RMSE of one sample by {analytic:?} is below that of 16 samples");

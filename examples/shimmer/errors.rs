@@ -21,8 +21,8 @@ pub(crate) struct Errors {
     pub(crate) faults: usize,
 }
 
-/// Compares radiance with a reference. Pixels at the silhouette, which are covered in part, do not count: a filter of
-/// normals does nothing for them.
+/// Compares radiance with a reference. Pixels at the silhouette, which are covered in part, do not
+/// count: a filter of normals does nothing for them.
 pub(crate) fn errors(
     picture: &Picture,
     reference: &[Mean],

@@ -24,7 +24,8 @@ impl Flicker {
         self.previous = Some(frames);
     }
 
-    /// Mean absolute change from frame to frame over that of the reference: 1 is right, more is flicker.
+    /// Mean absolute change from frame to frame over that of the reference: 1 is right, more is
+    /// flicker.
     pub(crate) fn change(&self) -> f64 {
         self.changes[0] / self.changes[1]
     }

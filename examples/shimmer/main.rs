@@ -1,11 +1,13 @@
-//! Specular antialiasing on scenes whose highlights are smaller than pixels: what the filters of this crate make of one
-//! sample per pixel, measured against a reference of many.
+//! Specular antialiasing on scenes whose highlights are smaller than pixels: what the filters of
+//! this crate make of one sample per pixel, measured against a reference of many.
 //!
-//! `cargo run --release --example shimmer` prints a table for each scene and material and writes pictures to
-//! `target/shimmer/` in about two minutes; `-- --quick` makes small ones of few samples.
+//! `cargo run --release --example shimmer` prints a table for each scene and material and writes
+//! pictures to `target/shimmer/` in about two minutes; `-- --quick` makes small ones of few
+//! samples.
 //!
-//! Where to look: `methods.rs` has every method in a few lines, from what a renderer knows of a pixel (`pixel.rs`) to
-//! its radiance. The scenes are `water.rs`, after Kaplanyan et al. 2016, Figs. 2 and 6, and `pebble.rs`.
+//! Where to look: `methods.rs` has every method in a few lines, from what a renderer knows of a
+//! pixel (`pixel.rs`) to its radiance. The scenes are `water.rs`, after Kaplanyan et al. 2016,
+//! Figs. 2 and 6, and `pebble.rs`.
 #![expect(
     clippy::cast_precision_loss,
     clippy::cast_possible_truncation,

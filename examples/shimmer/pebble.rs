@@ -41,8 +41,8 @@ impl Shape for Pebble {
                 let gradient = p.normalize() - slope;
                 return Some(Hit { position: p, geometric_normal: gradient.normalize(), gradient });
             }
-            // Up to where the parabola of the least second derivative is 0: never past the surface, and as fast as
-            // Newton's method near it.
+            // Up to where the parabola of the least second derivative is 0: never past the surface,
+            // and as fast as Newton's method near it.
             let descent = slope.dot(ray.direction) - p.dot(ray.direction) / p.length();
             let root = (descent * descent + 2.0 * self.curvature * height).sqrt();
             t += if descent > 0.0 {

@@ -34,7 +34,8 @@ impl Region {
         self.size[0] * self.size[1]
     }
 
-    /// A place of the picture, in heights of the whole from its centre, from pixels within this region.
+    /// A place of the picture, in heights of the whole from its centre, from pixels within this
+    /// region.
     pub(crate) fn place(&self, x: f64, y: f64) -> [f64; 2] {
         let height = self.height as f64;
         let [left, top] = self.corner.map(|pixels| pixels as f64);
@@ -46,7 +47,8 @@ fn width(height: usize) -> usize {
     height * 16 / 10
 }
 
-/// What `pixel` makes of each pixel of a region, row by row, on all cores. The result does not depend on their number.
+/// What `pixel` makes of each pixel of a region, row by row, on all cores. The result does not
+/// depend on their number.
 pub(crate) fn each_pixel<T: Send>(region: Region, pixel: impl Fn(usize, usize) -> T + Sync) -> Vec<T> {
     let threads = thread::available_parallelism().map_or(1, core::num::NonZero::get);
     let next_row = AtomicUsize::new(0);

@@ -1,4 +1,5 @@
-//! Pictures of many samples per pixel, unfiltered: the reference, and what supersampling gives for its price.
+//! Pictures of many samples per pixel, unfiltered: the reference, and what supersampling gives for
+//! its price.
 
 use microsurface::Error;
 use rand_pcg::Pcg32;

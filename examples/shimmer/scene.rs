@@ -52,7 +52,8 @@ pub(crate) struct Scene {
     pub(crate) tangent: DVec3,
     /// The colour of the diffuse term in pictures.
     pub(crate) tint: Vec3,
-    /// Enlarged crops, as shares of the picture: the left upper corner of a quarter of its width and height.
+    /// Enlarged crops, as shares of the picture: the left upper corner of a quarter of its width
+    /// and height.
     pub(crate) crops: [[f64; 2]; 2],
 }
 
@@ -98,8 +99,8 @@ impl Scene {
 }
 
 impl Camera {
-    /// The direction through a place of the picture, measured in picture heights from its centre, y down, not
-    /// normalised, and its derivatives by the place.
+    /// The direction through a place of the picture, measured in picture heights from its centre, y
+    /// down, not normalised, and its derivatives by the place.
     pub(crate) fn direction(&self, place: DVec2) -> (DVec3, [DVec3; 2]) {
         let forward = (self.target - self.eye).normalize();
         let right = forward.cross(DVec3::Z).normalize() * self.view;

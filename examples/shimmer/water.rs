@@ -1,7 +1,7 @@
 //! A tile of wavy water: flat, with the normals of waves, seen at a grazing angle.
 //!
-//! Beyond the lamp, which hangs low over it, eye and lamp are on the same side: half vectors are far from the normal there,
-//! and nothing shines.
+//! Beyond the lamp, which hangs low over it, eye and lamp are on the same side: half vectors are
+//! far from the normal there, and nothing shines.
 
 use microsurface::glam::{DMat3, DVec2, DVec3, Vec3};
 

@@ -17,8 +17,8 @@ pub(crate) struct Waves<const N: usize> {
 }
 
 impl<const N: usize> Waves<N> {
-    /// Waves of these wave vectors, each of the same steepness amplitude · |k|. The phases are the golden ratio's
-    /// multiples.
+    /// Waves of these wave vectors, each of the same steepness amplitude · |k|. The phases are the
+    /// golden ratio's multiples.
     pub(crate) fn of_steepness(steepness: f64, wave_vector: impl Fn(f64) -> DVec3) -> Self {
         let vectors: [DVec3; N] = from_fn(|i| wave_vector(i as f64));
         Self {

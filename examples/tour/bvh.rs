@@ -10,7 +10,8 @@ const LEAF_SIZE: usize = 4;
 struct Node {
     low: Vec3,
     high: Vec3,
-    /// The first shape of a leaf, or the second child of an inner node; the first child comes right after its parent.
+    /// The first shape of a leaf, or the second child of an inner node; the first child comes right
+    /// after its parent.
     index: usize,
     /// 0 for an inner node.
     count: usize,
@@ -54,7 +55,8 @@ impl Bvh {
         found
     }
 
-    /// Calls `f` with the shapes near the ray; it returns how far to look from then on, or None to stop.
+    /// Calls `f` with the shapes near the ray; it returns how far to look from then on, or None to
+    /// stop.
     fn visit<'a>(&'a self, ray: &Ray, nearest: f32, mut f: impl FnMut(&'a Shape, f32) -> Option<f32>) {
         let inverse = ray.direction.recip();
         let mut furthest = f32::INFINITY;

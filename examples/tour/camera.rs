@@ -18,7 +18,8 @@ pub(crate) struct Camera {
 }
 
 impl Camera {
-    /// A camera that sees `view_height` world units at the target, from `elevation` radians above the horizon.
+    /// A camera that sees `view_height` world units at the target, from `elevation` radians above
+    /// the horizon.
     pub(crate) fn new(target: Vec3, distance: f32, elevation: f32, view_height: f32) -> Self {
         let back = Vec3::new(0.0, elevation.sin(), elevation.cos());
         let right = Vec3::X * (view_height / distance);

@@ -1,9 +1,10 @@
-//! How noisy is a picture of GTR by visible normals, by all normals, and by the papers' mixture of all normals and
-//! uniform directions?
+//! How noisy is a picture of GTR by visible normals, by all normals, and by the papers' mixture of
+//! all normals and uniform directions?
 //!
-//! Nothing but the sampling differs: one reflection of the environment's light at what the centre of a pixel sees, without
-//! a limit on contributions, from independent random numbers. The mean squared error of n samples is then the
-//! variance of one over n, and a ratio of variances the ratio of the samples needed for the same error.
+//! Nothing but the sampling differs: one reflection of the environment's light at what the centre
+//! of a pixel sees, without a limit on contributions, from independent random numbers. The mean
+//! squared error of n samples is then the variance of one over n, and a ratio of variances the
+//! ratio of the samples needed for the same error.
 
 use core::ops::AddAssign;
 use core::time::Duration;
@@ -217,8 +218,8 @@ fn sampled(alpha: f32, gamma: f32) -> Result<[Box<dyn Material>; SAMPLINGS.len()
     Ok([Box::new(visible), Box::new(visible.sampled_by(AllNormals)), Box::new(visible.sampled_by(mixture))])
 }
 
-/// What the vertex reflects of the environment, estimated by one sample of the material and, with `light`, one of the
-/// environment.
+/// What the vertex reflects of the environment, estimated by one sample of the material and, with
+/// `light`, one of the environment.
 fn reflected(
     scene: &Scene,
     vertex: &Vertex,

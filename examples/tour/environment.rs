@@ -1,7 +1,8 @@
 //! Light from infinitely far away: a sky and a few studio lights.
 //!
-//! The lights are sampled in proportion to what they exceed the mean brightness by; the rest, the sky, is left to the
-//! sampler of the material, which multiple importance sampling combines with this one.
+//! The lights are sampled in proportion to what they exceed the mean brightness by; the rest, the
+//! sky, is left to the sampler of the material, which multiple importance sampling combines with
+//! this one.
 //!
 //! Reference: Karlík, Šik, Vévoda, Skřivan and Křivánek 2019, "MIS compensation".
 

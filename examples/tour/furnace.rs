@@ -38,8 +38,8 @@ pub(crate) fn direction(cos: f32) -> Vec3 {
     Vec3::new(sin * x, sin * y, cos)
 }
 
-/// The share of light from everywhere that leaves towards `wo`: the mean weight of the sampler. Also the time that
-/// drawing the samples took.
+/// The share of light from everywhere that leaves towards `wo`: the mean weight of the sampler.
+/// Also the time that drawing the samples took.
 pub(crate) fn sampled(
     material: &dyn Material,
     wo: Vec3,
@@ -68,9 +68,9 @@ pub(crate) fn sampled(
 
 /// ∫ f wi.z dwi, by the midpoint rule over the half vector.
 ///
-/// With e^s the tangent of its angle, dwi = 4 (wo·wm) dwm and dwm = sin²θ cosθ ds dφ: every width of the peak is
-/// resolved alike. The points of each sector are shifted in s by another share of the step, so that the edge where
-/// wi sinks below the horizon is met evenly.
+/// With e^s the tangent of its angle, dwi = 4 (wo·wm) dwm and dwm = sin²θ cosθ ds dφ: every width
+/// of the peak is resolved alike. The points of each sector are shifted in s by another share of
+/// the step, so that the edge where wi sinks below the horizon is met evenly.
 pub(crate) fn quadrature(material: &dyn Material, wo: Vec3, faults: &mut Faults) -> DVec3 {
     const RINGS: u16 = 160;
     const SECTORS: u16 = 96;

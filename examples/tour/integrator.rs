@@ -1,4 +1,5 @@
-//! Paths: the environment and the material are both sampled at every vertex, and weighed by their densities.
+//! Paths: the environment and the material are both sampled at every vertex, and weighed by their
+//! densities.
 
 use core::ops::AddAssign;
 
@@ -50,7 +51,8 @@ impl AddAssign for Faults {
     }
 }
 
-/// The radiance that arrives along the ray, estimated with one path; for `tolerance` see [`limited`].
+/// The radiance that arrives along the ray, estimated with one path; for `tolerance` see
+/// [`limited`].
 pub(crate) fn radiance(
     scene: &Scene,
     mut ray: Ray,
@@ -100,8 +102,8 @@ pub(crate) fn radiance(
     sum
 }
 
-/// What the vertex reflects towards `wo` of the light from a direction that the environment samples, weighed against the
-/// directions that the material samples.
+/// What the vertex reflects towards `wo` of the light from a direction that the environment
+/// samples, weighed against the directions that the material samples.
 pub(crate) fn by_environment(
     scene: &Scene,
     vertex: &Vertex,
@@ -125,18 +127,20 @@ pub(crate) fn by_environment(
 
 /// The contribution of a path, made smaller where its largest channel exceeds the limit.
 ///
-/// What a rough surface receives by way of a smooth one, a caustic, arrives along few paths of great weight: bright
-/// dots at few samples. The limit grows with the least density along the path, so that it darkens caustics and
-/// leaves mirror images as they are, and with the number of samples, so that the bias vanishes in the end. The table
-/// has no such limit.
+/// What a rough surface receives by way of a smooth one, a caustic, arrives along few paths of
+/// great weight: bright dots at few samples. The limit grows with the least density along the path,
+/// so that it darkens caustics and leaves mirror images as they are, and with the number of
+/// samples, so that the bias vanishes in the end. The table has no such limit.
 fn limited(contribution: Vec3, limit: f32) -> Vec3 {
     let largest = contribution.max_element();
     if largest > limit { contribution * (limit / largest) } else { contribution }
 }
 
-/// The weight of a direction drawn with density `p` that another sampler would have drawn with density `q`.
+/// The weight of a direction drawn with density `p` that another sampler would have drawn with
+/// density `q`.
 ///
-/// Veach and Guibas 1995, "Optimally combining sampling techniques for Monte Carlo rendering", §3.2.
+/// Veach and Guibas 1995, "Optimally combining sampling techniques for Monte Carlo rendering",
+/// §3.2.
 pub(crate) fn power_heuristic(p: f32, q: f32) -> f32 {
     let ratio = q / p;
     1.0 / (1.0 + ratio * ratio)

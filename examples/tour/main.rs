@@ -1,11 +1,12 @@
 //! A tour of the crate: a small path tracer that uses its public interface only.
 //!
-//! `cargo run --release --example tour` renders spheres of many microsurfaces into `target/tour/` and prints what
-//! each reflects, checked by its own sampler against a quadrature. `-- --help` lists the options; one of them,
-//! `--compare-sampling`, measures the noise of GTR by three samplings instead.
+//! `cargo run --release --example tour` renders spheres of many microsurfaces into `target/tour/`
+//! and prints what each reflects, checked by its own sampler against a quadrature. `-- --help`
+//! lists the options; one of them, `--compare-sampling`, measures the noise of GTR by three
+//! samplings instead.
 //!
-//! Where to look: `material.rs` is all that a renderer needs from a BSDF and `picture.rs` builds the materials;
-//! `integrator.rs` is where they are evaluated and sampled.
+//! Where to look: `material.rs` is all that a renderer needs from a BSDF and `picture.rs` builds
+//! the materials; `integrator.rs` is where they are evaluated and sampled.
 #![expect(
     clippy::cast_precision_loss,
     clippy::cast_possible_truncation,

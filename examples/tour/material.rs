@@ -7,7 +7,8 @@ use microsurface::bsdf::{NormalSampling, RoughConductor, Sample};
 use microsurface::fresnel::Fresnel;
 use microsurface::glam::{Vec2, Vec3};
 
-/// A reflecting material; directions are in the shading frame, z the normal, and point away from the surface.
+/// A reflecting material; directions are in the shading frame, z the normal, and point away from
+/// the surface.
 pub(crate) trait Material: Sync {
     /// f(wi, wo) without the cosine.
     fn eval(&self, wi: Vec3, wo: Vec3) -> Vec3;

@@ -6,7 +6,8 @@ use microsurface::glam::Vec3;
 
 use crate::shape::Shape;
 
-/// The triangles of a file, standing on the floor at the origin, and their height: scaled to height 2 or width 3.
+/// The triangles of a file, standing on the floor at the origin, and their height: scaled to height
+/// 2 or width 3.
 pub(crate) fn load(path: &Path, material: usize) -> Result<(Vec<Shape>, f32), String> {
     let describe = |problem: String| format!("cannot load the mesh {}: {problem}", path.display());
     let (models, _) =

@@ -11,8 +11,8 @@ use crate::integrator::{Faults, radiance};
 use crate::sampler::Sampler;
 use crate::scene::Scene;
 
-/// What the paths through one row of pixels give to the row above, to their own and to the row below: sums of
-/// weighted radiance, and of weights.
+/// What the paths through one row of pixels give to the row above, to their own and to the row
+/// below: sums of weighted radiance, and of weights.
 type Row = [Vec<Vec4>; 3];
 
 /// The picture, and what was wrong with its numbers. It does not depend on the number of threads.
@@ -31,7 +31,8 @@ pub(crate) fn render(
     (Image { width, height, pixels }, faults)
 }
 
-/// What `row` makes of each row of a picture, from the top, on all cores; and what was wrong with its numbers.
+/// What `row` makes of each row of a picture, from the top, on all cores; and what was wrong with
+/// its numbers.
 pub(crate) fn each_row<T: Send>(
     height: u32,
     progress: &ProgressBar,
@@ -90,8 +91,8 @@ fn row(scene: &Scene, y: u32, [width, height]: [u32; 2], samples: u32, faults: &
     sums
 }
 
-/// The weights of a place t ∈ [0, 1) inside a pixel for the pixel before, its own and the next: tents two pixels
-/// wide. A path counts for up to four pixels, which quiets the noise by a third.
+/// The weights of a place t ∈ [0, 1) inside a pixel for the pixel before, its own and the next:
+/// tents two pixels wide. A path counts for up to four pixels, which quiets the noise by a third.
 fn tents(t: f32) -> [f32; 3] {
     let from_centre = t - 0.5;
     [(-from_centre).max(0.0), 1.0 - from_centre.abs(), from_centre.max(0.0)]

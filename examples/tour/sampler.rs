@@ -6,8 +6,8 @@ use rand_pcg::rand_core::{Rng, SeedableRng};
 
 /// The random numbers of one path: an Owen-scrambled Sobol sequence for each decision along it.
 ///
-/// Every decision has its own scrambling and its own order of the points, both seeded by the pixel alone, so that
-/// pictures do not depend on the number of threads.
+/// Every decision has its own scrambling and its own order of the points, both seeded by the pixel
+/// alone, so that pictures do not depend on the number of threads.
 ///
 /// References: Burley 2020, "Practical hash-based Owen scrambling"; Laine and Karras 2011.
 pub(crate) struct Sampler {
@@ -24,7 +24,8 @@ impl Sampler {
     /// The point of the next decision.
     pub(crate) fn next(&mut self) -> Vec2 {
         let (order, seed_x, seed_y) = (self.seeds.next_u32(), self.seeds.next_u32(), self.seeds.next_u32());
-        // Any aligned block of the sequence is as evenly spread as the first: 16 bits of the index suffice.
+        // Any aligned block of the sequence is as evenly spread as the first: 16 bits of the index
+        // suffice.
         let index = scrambled(self.index.reverse_bits(), order).reverse_bits() & 0xffff;
         let x = scrambled(index, seed_x).reverse_bits();
         let y = scrambled(sobol_second(index), seed_y).reverse_bits();
@@ -37,7 +38,8 @@ fn unit(bits: u32) -> f32 {
     (bits >> 8) as f32 * (1.0 / 16_777_216.0)
 }
 
-/// A permutation in which a bit depends on the bits below it only: Owen's scrambling of the reversed number.
+/// A permutation in which a bit depends on the bits below it only: Owen's scrambling of the
+/// reversed number.
 fn scrambled(x: u32, seed: u32) -> u32 {
     let x = x.wrapping_add(seed);
     // An even factor moves information upwards only, and x ^ (even · x) can be undone bit by bit.

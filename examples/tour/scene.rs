@@ -117,7 +117,8 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// Spheres in rows on the floor, the material of each its number from the back left, and a camera that sees them all.
+/// Spheres in rows on the floor, the material of each its number from the back left, and a camera
+/// that sees them all.
 pub(crate) fn spheres([rows, columns]: [usize; 2]) -> (Vec<Shape>, Camera) {
     const RADIUS: f32 = 0.45;
     const ROW_DISTANCE: f32 = 1.45;

@@ -33,7 +33,8 @@ impl Shape {
         }
     }
 
-    /// The distance along the ray within (`nearest`, `furthest`), and on a triangle the barycentric coordinates.
+    /// The distance along the ray within (`nearest`, `furthest`), and on a triangle the barycentric
+    /// coordinates.
     pub(crate) fn distance(&self, ray: &Ray, nearest: f32, furthest: f32) -> Option<(f32, Vec2)> {
         let (distance, place) = match self {
             Self::Sphere { centre, radius, .. } => (sphere(ray, *centre, *radius, nearest)?, Vec2::ZERO),

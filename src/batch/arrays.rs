@@ -81,7 +81,8 @@ pub struct Numbers<'a, T> {
     pub y: &'a [T],
 }
 
-/// Where samples of a BSDF are written, slices of equal length: a [`Sample`](crate::bsdf::Sample) each, or its absence.
+/// Where samples of a BSDF are written, slices of equal length: a [`Sample`](crate::bsdf::Sample)
+/// each, or its absence.
 ///
 /// Where there is no sample `weight` and `pdf` are 0, and `wi` is no direction to follow.
 #[derive(Debug, PartialEq)]

@@ -8,8 +8,8 @@ use crate::batch::arrays::{Directions, DirectionsMut, Numbers, Samples};
 use crate::ndf::staged::BLOCK;
 
 /// What a batch reads of each element. Sealed: slices, [`Directions`], [`Numbers`],
-/// [`Footprints`](crate::batch::Footprints), the numbers of a [`Varied`](crate::batch::Varied) material, and pairs and
-/// triples of them.
+/// [`Footprints`](crate::batch::Footprints), the numbers of a [`Varied`](crate::batch::Varied)
+/// material, and pairs and triples of them.
 pub trait Source: Copy + sealed::Source {
     /// A slice's element, an array of components, or a tuple of such.
     type Item;
@@ -34,7 +34,8 @@ pub trait Source: Copy + sealed::Source {
         Self: 'b;
 }
 
-/// What a batch writes of each element. Sealed: slices, [`DirectionsMut`], [`Samples`], and pairs of slices.
+/// What a batch writes of each element. Sealed: slices, [`DirectionsMut`], [`Samples`], and pairs
+/// of slices.
 pub trait Sink: sealed::Sink {
     /// A slice's element, or a tuple of components.
     type Item;

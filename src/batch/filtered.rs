@@ -24,7 +24,8 @@ pub struct Footprints<'a, T> {
     pub dv_y: &'a [T],
 }
 
-/// Footprints whose A + 2Σ is within the range of α, and the variance of the pixel's kernel: Σ = σ²(uᵀu + vᵀv).
+/// Footprints whose A + 2Σ is within the range of α, and the variance of the pixel's kernel: Σ =
+/// σ²(uᵀu + vᵀv).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InRange<'a, T> {
     footprints: Footprints<'a, T>,
@@ -74,8 +75,9 @@ macro_rules! filtered {
             /// [`covariance`](crate::filter::covariance) names the usual ones.
             ///
             /// # Errors
-            /// [`Error::Covariance`] with the Σ of the first footprint that is not finite or has a step larger than a
-            /// quarter of the largest α; of the variance, if it is not finite or negative.
+            /// [`Error::Covariance`] with the Σ of the first footprint that is not finite or has a
+            /// step larger than a quarter of the largest α; of the variance, if it is not finite or
+            /// negative.
             pub fn new(footprints: Footprints<'a, T>, variance: T) -> Result<Self, Error> {
                 Ok(Self { in_range: InRange::new(footprints, variance)? })
             }
@@ -105,8 +107,8 @@ filtered!(
     Filtered
 );
 filtered!(
-    /// GGX surfaces filtered over the footprint of each element in the projected space of m.xy, as by
-    /// [`projected::filtered`].
+    /// GGX surfaces filtered over the footprint of each element in the projected space of m.xy, as
+    /// by [`projected::filtered`].
     FilteredProjected
 );
 

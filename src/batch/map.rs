@@ -4,17 +4,20 @@ use crate::batch::blocks::{Sink, Source};
 use crate::batch::material::{Shared, each_built};
 use crate::batch::stages::{Body, without_normals};
 
-/// `f` of every element, compiled for each level of the instruction set like every batch: for what has no entry point of its
-/// own, such as mixtures of BSDFs, filters, and the [`elementary`](crate::elementary) functions.
+/// `f` of every element, compiled for each level of the instruction set like every batch: for what
+/// has no entry point of its own, such as mixtures of BSDFs, filters, and the
+/// [`elementary`](crate::elementary) functions.
 ///
-/// Where `f` is straight-line code, as most of the crate is, the loop becomes vector code; of a large closure take [`map_inlined`].
-/// Means over footprints choose between several forms and remain scalar.
+/// Where `f` is straight-line code, as most of the crate is, the loop becomes vector code; of a
+/// large closure take [`map_inlined`]. Means over footprints choose between several forms and
+/// remain scalar.
 ///
 /// # Panics
 /// Where slices differ in length; nothing has been written then. Where `f` panics.
 ///
 /// # Example
-/// The roughness that a deferred renderer stores for a pixel, and a BRDF averaged over its footprint.
+/// The roughness that a deferred renderer stores for a pixel, and a BRDF averaged over its
+/// footprint.
 /// ```
 /// use microsurface::batch::{self, Directions, Footprints};
 /// use microsurface::filter::{Footprint, deferred::{self, Bound, Kernel}};
@@ -59,8 +62,8 @@ pub trait Function<I> {
     fn of(&self, input: I) -> Self::Out;
 }
 
-/// [`map()`] of a function that is no closure: of a large closure nothing makes sure that it becomes part of the loop, and where it
-/// stays a call the loop is scalar.
+/// [`map()`] of a function that is no closure: of a large closure nothing makes sure that it
+/// becomes part of the loop, and where it stays a call the loop is scalar.
 ///
 /// # Panics
 /// As [`map()`].

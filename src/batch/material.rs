@@ -76,8 +76,8 @@ impl<M: Material> Material for &M {
     }
 }
 
-/// One [`Material`] for all elements, a slice with one for each, or one [`Varied`](crate::batch::Varied) by numbers of each
-/// element. Sealed.
+/// One [`Material`] for all elements, a slice with one for each, or one
+/// [`Varied`](crate::batch::Varied) by numbers of each element. Sealed.
 pub trait Materials: sealed::Materials {
     /// The type of the one, or of each; never a reference.
     type Material: Copy;
@@ -197,7 +197,8 @@ where
     I: Source,
     O: Sink,
 {
-    /// A loop for each form that is worth one; most materials have form 0 alone, which the compiler sees.
+    /// A loop for each form that is worth one; most materials have form 0 alone, which the compiler
+    /// sees.
     #[inline(always)]
     fn run(self) {
         let material = self.material.local();

@@ -68,14 +68,17 @@ impl<N: StagedVndf> Body<N, Sampled<N>> for VisibleNormal {
     }
 }
 
-/// [`Ndf`] and its sampling over many directions: on a distribution, or on a slice with one for each element.
+/// [`Ndf`] and its sampling over many directions: on a distribution, or on a slice with one for
+/// each element.
 ///
-/// Domains and special cases are those of the method without `_batch`, element by element; a batch of visible normals is
-/// vector code for GGX and Beckmann, of which [`BeckmannTo1e6`](crate::beckmann::BeckmannTo1e6) takes half the time; of
-/// a GTR mixture it is a scalar loop, no faster than the calls.
+/// Domains and special cases are those of the method without `_batch`, element by element; a batch
+/// of visible normals is vector code for GGX and Beckmann, of which
+/// [`BeckmannTo1e6`](crate::beckmann::BeckmannTo1e6) takes half the time; of a GTR mixture it is a
+/// scalar loop, no faster than the calls.
 ///
 /// # Panics
-/// Every method where slices, that of distributions included, differ in length; nothing has been written then.
+/// Every method where slices, that of distributions included, differ in length; nothing has been
+/// written then.
 ///
 /// # Example
 /// ```

@@ -147,11 +147,13 @@ impl<R: Reflection> Body<R, (Vec3<R>, Vec2<R>)> for Sample {
 
 /// [`RoughConductor`] over many directions: on a BRDF, or on a slice with one for each element.
 ///
-/// Domains and special cases are those of the method without `_batch`, element by element. f and weights are written as
-/// the Fresnel term gives them, one scalar or one glam vector for each element.
+/// Domains and special cases are those of the method without `_batch`, element by element. f and
+/// weights are written as the Fresnel term gives them, one scalar or one glam vector for each
+/// element.
 ///
 /// # Panics
-/// Every method where slices, that of BRDFs included, differ in length; nothing has been written then.
+/// Every method where slices, that of BRDFs included, differ in length; nothing has been written
+/// then.
 ///
 /// # Example
 /// ```

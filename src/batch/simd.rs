@@ -66,8 +66,8 @@ mod x86 {
 
     use super::{Level, Vectorized};
 
-    /// The level in use, as a number one higher; 0 before the processor has been asked. Only [`set`] writes it, and
-    /// only what [`highest`] allows.
+    /// The level in use, as a number one higher; 0 before the processor has been asked. Only
+    /// [`set`] writes it, and only what [`highest`] allows.
     static LEVEL: AtomicU8 = AtomicU8::new(0);
 
     /// The highest level of this processor.
@@ -85,8 +85,8 @@ mod x86 {
         }
     }
 
-    /// Limits all batches of the process to a level, for tests and measurements; what the processor does not have is
-    /// not used. Returns the level in use from here on.
+    /// Limits all batches of the process to a level, for tests and measurements; what the processor
+    /// does not have is not used. Returns the level in use from here on.
     #[expect(clippy::must_use_candidate, reason = "called for its effect")]
     pub fn limit_to(limit: Level) -> Level {
         set(limit.min(highest()))
@@ -117,7 +117,8 @@ mod x86 {
     #[inline]
     pub(crate) fn run(batch: impl Vectorized) {
         match level() {
-            // SAFETY: `level` is at most `highest`, which asked the processor for each of the features.
+            // SAFETY: `level` is at most `highest`, which asked the processor for each of the
+            // features.
             Level::Avx512 => unsafe { avx512(batch) },
             // SAFETY: the same.
             Level::Avx2 => unsafe { avx2(batch) },

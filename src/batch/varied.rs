@@ -1,4 +1,5 @@
-//! Materials that differ between elements by a few numbers: textures of widths, footprints of pixels.
+//! Materials that differ between elements by a few numbers: textures of widths, footprints of
+//! pixels.
 
 use crate::Real;
 use crate::alpha::{alpha_range, mirror_alpha, refused};
@@ -13,10 +14,12 @@ use crate::map::{AxisAligned, Isotropic, Linear, Map};
 use crate::microsurface::Microsurface;
 use crate::profile::ShapeInvariant;
 
-/// One material, varied by numbers of each element: the structure of arrays of a textured or filtered material.
+/// One material, varied by numbers of each element: the structure of arrays of a textured or
+/// filtered material.
 ///
-/// Nothing is stored but the material and the slices: the surface of an element is made in the loop that uses it, of its
-/// own numbers, and only what the loop needs of it. Every batch of the material is one of the varied material too.
+/// Nothing is stored but the material and the slices: the surface of an element is made in the loop
+/// that uses it, of its own numbers, and only what the loop needs of it. Every batch of the
+/// material is one of the varied material too.
 ///
 /// | varied by | the surface of an element | its map |
 /// |---|---|---|
@@ -26,8 +29,8 @@ use crate::profile::ShapeInvariant;
 /// | [`Filtered`](crate::batch::Filtered) | filtered: A + 2Σ, with the Σ of its footprint | [`Linear`] |
 /// | [`FilteredProjected`](crate::batch::FilteredProjected) | filtered in projected space (GGX) | [`Linear`] |
 ///
-/// The first three replace whatever width the material has. They are for the profiles whose width is that of the map, GGX and
-/// Beckmann; of GTR take a slice of surfaces.
+/// The first three replace whatever width the material has. They are for the profiles whose width
+/// is that of the map, GGX and Beckmann; of GTR take a slice of surfaces.
 ///
 /// # Example
 /// A texture of α; [`Filtered`](crate::batch::Filtered) has an example with footprints.
@@ -59,7 +62,8 @@ impl<'a, B: OnSurface, V: Variation<B::Surface>> Varied<'a, B, V> {
     }
 }
 
-/// What can be varied: a microsurface, or a BSDF on one. Sealed: [`Microsurface`], [`RoughConductor`].
+/// What can be varied: a microsurface, or a BSDF on one. Sealed: [`Microsurface`],
+/// [`RoughConductor`].
 pub trait OnSurface: Copy + sealed::OnSurface {
     #[doc(hidden)]
     type Surface;
@@ -199,8 +203,8 @@ impl<'a, T: Real> Alphas<'a, T> {
     /// These widths.
     ///
     /// # Errors
-    /// [`Error::Alpha`] with the first that is not within [`alpha_range`]; textures that hold 0 want
-    /// [`clamped`](Self::clamped).
+    /// [`Error::Alpha`] with the first that is not within [`alpha_range`]; textures that hold 0
+    /// want [`clamped`](Self::clamped).
     pub fn new(alpha: &'a [T]) -> Result<Self, Error> {
         check_alphas(alpha)?;
         Ok(Self { alpha, smallest: alpha_range().0 })

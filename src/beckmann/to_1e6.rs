@@ -11,13 +11,16 @@ use crate::profile::{Profile, SampleProfile, SampleVisibleProfile};
 
 /// [`Beckmann`] with another sampling of visible normals: to 1e-6 of u instead of to rounding.
 ///
-/// The same inversion in the arithmetic of the scalar, where [`Beckmann`] in f32 computes part of it in f64: in batches it takes
-/// about half the time (`cargo bench --bench bench -- entry_visible_normal_beckmann`). All that is evaluated is Beckmann's to the bit, and so is everything in f64.
+/// The same inversion in the arithmetic of the scalar, where [`Beckmann`] in f32 computes part of
+/// it in f64: in batches it takes about half the time (`cargo bench --bench bench --
+/// entry_visible_normal_beckmann`). All that is evaluated is Beckmann's to the bit, and so is
+/// everything in f64.
 ///
 /// # Accuracy
-/// In f32, as a difference of u, the slope along the view is right to 4.5e-7 at worst (ν = z/s = 0.001, u = 0.945), to 6.3e-7 from
-/// below the horizon (ν = −3.97, u = 1 − 2⁻²⁴), with a root mean square of 6e-8; relative to u to 4.7e-6 (u = 3e-8). Below
-/// ν = −2²⁰ it is ν, from which it differs by less than rounding. The slope across is that of
+/// In f32, as a difference of u, the slope along the view is right to 4.5e-7 at worst (ν = z/s =
+/// 0.001, u = 0.945), to 6.3e-7 from below the horizon (ν = −3.97, u = 1 − 2⁻²⁴), with a root mean
+/// square of 6e-8; relative to u to 4.7e-6 (u = 3e-8). Below ν = −2²⁰ it is ν, from which it
+/// differs by less than rounding. The slope across is that of
 /// [`erfc_inv`](crate::elementary::erfc_inv). Neither is monotone ulp by ulp.
 ///
 /// # Example
@@ -32,7 +35,8 @@ use crate::profile::{Profile, SampleProfile, SampleVisibleProfile};
 /// ```
 ///
 /// # References
-/// As [`Beckmann`]; Heitz and d'Eon 2014, §4.1, with an inversion of our own, derived in `beckmann/visible.rs`.
+/// As [`Beckmann`]; Heitz and d'Eon 2014, §4.1, with an inversion of our own, derived in
+/// `beckmann/visible.rs`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct BeckmannTo1e6;
 

@@ -11,21 +11,24 @@ use crate::ndf::staged::Forms;
 use crate::ndf::{Ndf, Vec2, Vec3, cosine_scale};
 use crate::vector::dot;
 
-/// Single reflection off a rough surface of any distribution and Fresnel term, with height-correlated masking.
+/// Single reflection off a rough surface of any distribution and Fresnel term, with
+/// height-correlated masking.
 ///
-/// f = F D G2/(4 zi zo), evaluated as F D/(4 (zo σ(wi) + zi σ(wo) − zi zo)), which has no cosine in a
-/// denominator, with D of the half vector wi + wo, which is not normalised (see [`Ndf::d_along`]).
+/// f = F D G2/(4 zi zo), evaluated as F D/(4 (zo σ(wi) + zi σ(wo) − zi zo)), which has no cosine in
+/// a denominator, with D of the half vector wi + wo, which is not normalised (see
+/// [`Ndf::d_along`]).
 ///
 /// # Domain
-/// Unit vectors. The cosine between either direction and the half vector is ½|wi + wo| for those alone:
-/// the cosines of wi and of wo differ by 2 (|wi|² − |wo|²)/|wi + wo|² of it otherwise, which matters where
-/// wi ≈ −wo.
+/// Unit vectors. The cosine between either direction and the half vector is ½|wi + wo| for those
+/// alone: the cosines of wi and of wo differ by 2 (|wi|² − |wo|²)/|wi + wo|² of it otherwise, which
+/// matters where wi ≈ −wo.
 ///
 /// # Special cases
-/// A direction at or below the horizon → f = pdf = 0 and no sample. Where |wi + wo|² < 2⁻⁶⁴ (f32) or 2⁻⁵¹² (f64),
-/// which unit vectors above the horizon reach only within 3e-10 (f32) of it and opposite to each other → 0. f itself
-/// grows without bound as both directions approach the horizon. It is held at the largest number of the
-/// scalar once 4 zi zo/G2 is smaller than D over that; f wi.z does not overflow.
+/// A direction at or below the horizon → f = pdf = 0 and no sample. Where |wi + wo|² < 2⁻⁶⁴ (f32)
+/// or 2⁻⁵¹² (f64), which unit vectors above the horizon reach only within 3e-10 (f32) of it and
+/// opposite to each other → 0. f itself grows without bound as both directions approach the
+/// horizon. It is held at the largest number of the scalar once 4 zi zo/G2 is smaller than D over
+/// that; f wi.z does not overflow.
 ///
 /// # Example
 /// ```
@@ -66,7 +69,8 @@ impl<N, F, S> RoughConductor<N, F, S> {
         RoughConductor { surface: self.surface, fresnel: self.fresnel, sampling }
     }
 
-    /// The same surface and sampling with another Fresnel term: [`Perfect`](crate::fresnel::Perfect) for a furnace.
+    /// The same surface and sampling with another Fresnel term:
+    /// [`Perfect`](crate::fresnel::Perfect) for a furnace.
     #[inline]
     #[must_use]
     pub fn with_fresnel<G>(self, fresnel: G) -> RoughConductor<N, G, S> {
@@ -183,8 +187,8 @@ where
     F: Fresnel,
     F::Output: Spectrum<Scalar = M::Scalar>,
 {
-    /// f(wi, wo) for a pixel whose half vectors cover a footprint in slopes: D is averaged over it, Fresnel and masking are
-    /// those of its centre.
+    /// f(wi, wo) for a pixel whose half vectors cover a footprint in slopes: D is averaged over it,
+    /// Fresnel and masking are those of its centre.
     ///
     /// The mean of P22 over the parallelogram ([`polygon::mean_p22`]) over wm.z⁴ in the place of D.
     ///
@@ -239,10 +243,12 @@ where
 {
     /// The density with which [`sample`](Self::sample) draws `wi`, 1/sr.
     ///
-    /// Its integral over the upper hemisphere is below 1 by the share of normals that reflect below the horizon.
+    /// Its integral over the upper hemisphere is below 1 by the share of normals that reflect below
+    /// the horizon.
     ///
     /// # Special cases
-    /// No half vector, but both directions above the horizon → the constant part of the density alone.
+    /// No half vector, but both directions above the horizon → the constant part of the density
+    /// alone.
     #[inline(always)]
     #[must_use]
     pub fn pdf(&self, wi: Vec3<N>, wo: Vec3<N>) -> N::Scalar {
@@ -259,12 +265,12 @@ where
 
     /// A direction to the light for the viewer `wo`, from two random numbers.
     ///
-    /// The weight F zi σ(wo)/(zo σ(wi) + zi σ(wo) − zi zo) of visible normals contains neither D nor a division by
-    /// a cosine. It is at most F, to a rounding: (1 + 2ε) F is the largest found.
+    /// The weight F zi σ(wo)/(zo σ(wi) + zi σ(wo) − zi zo) of visible normals contains neither D
+    /// nor a division by a cosine. It is at most F, to a rounding: (1 + 2ε) F is the largest found.
     ///
     /// # Returns
-    /// `None` where nothing is reflected: `wo` at or below the horizon, or a normal that reflects below it, whose
-    /// energy further bounces would carry.
+    /// `None` where nothing is reflected: `wo` at or below the horizon, or a normal that reflects
+    /// below it, whose energy further bounces would carry.
     #[inline(always)]
     #[must_use]
     pub fn sample(&self, wo: Vec3<N>, u: Vec2<N>) -> Option<Sample<N::Scalar, F::Output>> {
@@ -272,8 +278,8 @@ where
         if up { Some(sample) } else { None }
     }
 
-    /// The sample of a normal, given by a vector along it, with weight and density 0 in place of `None`, and a wi of no
-    /// meaning.
+    /// The sample of a normal, given by a vector along it, with weight and density 0 in place of
+    /// `None`, and a wi of no meaning.
     #[inline(always)]
     pub(crate) fn reflected_or_nothing(&self, wo: Vec3<N>, m: Vec3<N>) -> Sample<N::Scalar, F::Output> {
         let (up, Sample { wi, weight, pdf }) = self.reflected_by(wo, m);
@@ -281,7 +287,8 @@ where
         Sample { wi, weight: weight.map(select), pdf: select(pdf) }
     }
 
-    /// Whether the normal along m reflects anything, and the sample, which is meaningless where it does not.
+    /// Whether the normal along m reflects anything, and the sample, which is meaningless where it
+    /// does not.
     ///
     /// The mirror image is 2 (wo·m)/|m|² m − wo: a normalised m would be waited for.
     #[inline(always)]

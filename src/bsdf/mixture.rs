@@ -9,17 +9,19 @@ use crate::ndf::staged::Solver;
 use crate::ndf::{Ndf, Vec2, Vec3};
 use crate::vector::{below_one, normalized};
 
-/// With probability p a direction uniform on the hemisphere, otherwise one reflected by a normal of `S`.
+/// With probability p a direction uniform on the hemisphere, otherwise one reflected by a normal of
+/// `S`.
 ///
-/// The papers' sampling of GTR, whose visible normals they could not draw: the density of directions is
-/// p/(2π) + (1 − p) D(wm) wm.z/(4 wo·wm) over [`AllNormals`](crate::bsdf::AllNormals), which is the balance heuristic.
-/// One of the two random numbers decides and is used again. The weight is at most 2π f wi.z/p: where all normals alone
+/// The papers' sampling of GTR, whose visible normals they could not draw: the density of
+/// directions is p/(2π) + (1 − p) D(wm) wm.z/(4 wo·wm) over
+/// [`AllNormals`](crate::bsdf::AllNormals), which is the balance heuristic. One of the two random
+/// numbers decides and is used again. The weight is at most 2π f wi.z/p: where all normals alone
 /// have weights without bound, at grazing angles, it is bounded.
 ///
 /// # Variance
-/// Of all normals and of [`for_alpha`](Self::for_alpha), relative to the square of the mean, for a reflectance of 1:
-/// means over γ = 0.1, 1, 1.5, 2, 4 and views from 0°, 30°, 60°, 80°
-/// (`cargo test --test stat long_mixture -- --ignored --nocapture`).
+/// Of all normals and of [`for_alpha`](Self::for_alpha), relative to the square of the mean, for a
+/// reflectance of 1: means over γ = 0.1, 1, 1.5, 2, 4 and views from 0°, 30°, 60°, 80° (`cargo
+/// test --test stat long_mixture -- --ignored --nocapture`).
 ///
 /// | α | light all around: all normals | mixture | | lobe cos⁸ about the mirror direction: all normals | mixture | |
 /// |---|---|---|---|---|---|---|
@@ -31,8 +33,8 @@ use crate::vector::{below_one, normalized};
 /// | 0.7 | 1.38 | 0.59 | −57 % | 4.18 | 4.26 | +2 % |
 /// | 1 | 1.75 | 0.29 | −83 % | 6.61 | 4.92 | −26 % |
 ///
-/// The best p depends on γ and on the light as much as on α: heavier tails and light away from the mirror direction want
-/// more, lighter tails and light about it less.
+/// The best p depends on γ and on the light as much as on α: heavier tails and light away from the
+/// mirror direction want more, lighter tails and light about it less.
 ///
 /// # Example
 /// ```
@@ -52,7 +54,8 @@ use crate::vector::{below_one, normalized};
 /// ```
 ///
 /// # References
-/// Atanasov, Koylazov, Dimov and Wilkie 2022, Appendix B, which does not print its p; Veach and Guibas 1995.
+/// Atanasov, Koylazov, Dimov and Wilkie 2022, Appendix B, which does not print its p; Veach and
+/// Guibas 1995.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UniformMixture<S, T> {
     other: S,
@@ -80,13 +83,15 @@ impl<S, T: Real> UniformMixture<S, T> {
                 largest: 1.0,
             });
         }
-        // The second difference is exact (Sterbenz): both parts have the probability that their density says.
+        // The second difference is exact (Sterbenz): both parts have the probability that their
+        // density says.
         let rest = T::ONE - probability;
         let uniform = T::ONE - rest;
         Ok(Self { other, uniform, rest, density: T::HALF * T::FRAC_1_PI * uniform })
     }
 
-    /// The probability ⅘ α², chosen for GTR by the [variances measured](Self#variance); ⅘ for α > 1, of GGX.
+    /// The probability ⅘ α², chosen for GTR by the [variances measured](Self#variance); ⅘ for α >
+    /// 1, of GGX.
     ///
     /// For a surface under a map, α is that of the profile times the width of the map, √|det M⁻¹|.
     ///
@@ -137,8 +142,9 @@ impl<S, T: Real> UniformMixture<S, T> {
 impl<N: Ndf, S: NormalSampling<N>> NormalSampling<N> for UniformMixture<S, N::Scalar> {
     /// A normal of `S`, or the one halfway between `wo` and a uniform direction.
     ///
-    /// u.x < 1 − p chooses the normals, for which u.x/(1 − p) is below 1 after rounding too; else (1 − u.x)/p ∈ (0, 1]
-    /// is the height of a uniform direction, at least ε/2, so that the half vector does not vanish.
+    /// u.x < 1 − p chooses the normals, for which u.x/(1 − p) is below 1 after rounding too; else
+    /// (1 − u.x)/p ∈ (0, 1] is the height of a uniform direction, at least ε/2, so that the half
+    /// vector does not vanish.
     #[inline(always)]
     fn sample_along(&self, surface: &N, wo: Vec3<N>, u: Vec2<N>) -> Vec3<N> {
         self.or_uniform(wo, u, self.other.sample_along(surface, wo, self.of_other(u)))

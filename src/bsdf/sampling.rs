@@ -57,16 +57,17 @@ pub trait StagedSampling<N: Ndf>: NormalSampling<N> {
     ) -> (Vec3<N>, bool);
 }
 
-/// The normals visible from the viewer, of density D_w: the sample's weight exceeds the reflectance by rounding
-/// alone.
+/// The normals visible from the viewer, of density D_w: the sample's weight exceeds the reflectance
+/// by rounding alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct VisibleNormals;
 
-/// All normals, of density D(wm) wm.z, visible or not: for distributions whose visible normals cannot be drawn.
+/// All normals, of density D(wm) wm.z, visible or not: for distributions whose visible normals
+/// cannot be drawn.
 ///
-/// Weights are unbounded towards grazing angles, and so is the density of directions, D wm.z/(4 wo·wm): it overflows to
-/// ∞ where the cosine wo·wm is smaller than D over the largest number of the scalar.
-/// [`UniformMixture`](crate::bsdf::UniformMixture) bounds the weights.
+/// Weights are unbounded towards grazing angles, and so is the density of directions, D wm.z/(4
+/// wo·wm): it overflows to ∞ where the cosine wo·wm is smaller than D over the largest number of
+/// the scalar. [`UniformMixture`](crate::bsdf::UniformMixture) bounds the weights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct AllNormals;
 

@@ -1,8 +1,10 @@
-//! What the elementary functions need of a scalar: operations on its bits, and the names of its coefficient tables.
+//! What the elementary functions need of a scalar: operations on its bits, and the names of its
+//! coefficient tables.
 //!
-//! The tables stand in `coefficients/`: minimax fits computed by `tests/reference/elementary_coefficients.py`, which prints them
-//! with the error attained after rounding to the scalar. That error, of the approximant alone, stands beside
-//! each as a power of two. They are written as f64 and narrowed when compiled.
+//! The tables stand in `coefficients/`: minimax fits computed by
+//! `tests/reference/elementary_coefficients.py`, which prints them with the error attained after
+//! rounding to the scalar. That error, of the approximant alone, stands beside each as a power of
+//! two. They are written as f64 and narrowed when compiled.
 
 /// Sealed: implemented for f32 and f64 only.
 #[doc(hidden)]
@@ -15,7 +17,8 @@ pub trait Bits: Copy {
     const ROUND_POSITIVE: f64;
     /// `ROUND` + the bias of the exponent.
     const EXPONENT: f64;
-    /// A power of two that brings the smallest positive number above `MIN_POSITIVE`, and its exponent.
+    /// A power of two that brings the smallest positive number above `MIN_POSITIVE`, and its
+    /// exponent.
     const DENORMAL_SCALE: (f64, f64);
     /// `exp` overflows above the first and is 0 below the second.
     const EXP_RANGE: (f64, f64);
@@ -57,7 +60,8 @@ pub trait Bits: Copy {
     const ERFCX: [&'static [f64]; 2];
     /// See [`super::ierfcx`].
     const IERFCX: [&'static [f64]; 2];
-    /// See [`super::erf_inv`]: up to which value of the variable, its shift, numerator and denominator.
+    /// See [`super::erf_inv`]: up to which value of the variable, its shift, numerator and
+    /// denominator.
     const ERF_INV: [ErfInv; 3];
 
     /// 2ⁿ for an integer n within the exponents of normal numbers.
@@ -66,7 +70,8 @@ pub trait Bits: Copy {
     /// (m, k) with m·2ᵏ the number, √½ ≤ m < √2; normal positive numbers only.
     #[must_use]
     fn split_exponent(self) -> (Self, Self);
-    /// 2^−⌊log₂ x⌋ of a positive normal number below half the largest: the number times it is within [1, 2).
+    /// 2^−⌊log₂ x⌋ of a positive normal number below half the largest: the number times it is
+    /// within [1, 2).
     #[must_use]
     fn inverse_binade(self) -> Self;
     /// The number with the lower half of its digits zeroed, so that products of two such are exact.
@@ -122,8 +127,9 @@ macro_rules! bits {
         fn upper_half(self) -> Self {
             $t::from_bits(self.to_bits() & $half_mask)
         }
-        // Selects between two results by the quarter would become unpredictable branches in scalar code, and bit
-        // operations on the results denormal rubbish in unused lanes; products with 0 and ±1 are exact.
+        // Selects between two results by the quarter would become unpredictable branches in scalar
+        // code, and bit operations on the results denormal rubbish in unused lanes; products with 0
+        // and ±1 are exact.
         #[inline(always)]
         fn turned(sin: Self, cos: Self, sum: Self) -> (Self, Self) {
             // the sum's low bits are those of the integer

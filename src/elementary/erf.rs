@@ -13,8 +13,8 @@ use crate::real::Real;
 /// Any number.
 ///
 /// # Returns
-/// −1 to 1, odd; exactly ±1 from |x| > 3.93 (f32) or 5.93 (f64) on. Where ulps of the result are small beside its
-/// error, just below 1, it is not monotonic.
+/// −1 to 1, odd; exactly ±1 from |x| > 3.93 (f32) or 5.93 (f64) on. Where ulps of the result are
+/// small beside its error, just below 1, it is not monotonic.
 ///
 /// # Special cases
 /// ±0 → ±0, ±∞ → ±1, NaN → NaN.
@@ -46,7 +46,8 @@ pub fn erf<T: Real>(x: T) -> T {
 
 /// The complementary error function erfc x = 1 − erf x, without cancellation for positive x.
 ///
-/// e^(−x²)·erfcx|x|, and 2 less that for negative x. [`exp_neg_square`] keeps the digits of the square.
+/// e^(−x²)·erfcx|x|, and 2 less that for negative x. [`exp_neg_square`] keeps the digits of the
+/// square.
 ///
 /// # Domain
 /// Any number.

@@ -1,15 +1,16 @@
 //! Inverses of the error function and its complement.
 //!
-//! In the middle x = p·R(−ln(1 − p²)); in the tails, with q = erfc x the smaller side, x = R(√(−ln q)). The arithmetic of
-//! the intervals is the same, so that only coefficients are selected, not results.
+//! In the middle x = p·R(−ln(1 − p²)); in the tails, with q = erfc x the smaller side, x = R(√(−ln
+//! q)). The arithmetic of the intervals is the same, so that only coefficients are selected, not
+//! results.
 
 use super::ln;
 use super::log::{ln_normal, ln_normal_wide};
 use super::polynomial::polynomial_of;
 use crate::real::Real;
 
-/// The x ≥ 0 with erf x = `p` and erfc x = `q`, both given, 0 ≤ p and q ≤ 1; the coefficients are those of `T`, the
-/// arithmetic that of `W`.
+/// The x ≥ 0 with erf x = `p` and erfc x = `q`, both given, 0 ≤ p and q ≤ 1; the coefficients are
+/// those of `T`, the arithmetic that of `W`.
 #[inline(always)]
 fn inverse<T: Real, W: Real>(p: W, q: W, ln: impl Fn(W) -> W) -> W {
     let [a, b, c] = T::ERF_INV;
@@ -27,7 +28,8 @@ fn inverse<T: Real, W: Real>(p: W, q: W, ln: impl Fn(W) -> W) -> W {
 #[inline(always)]
 fn selected<W: Real>(v: W, near: bool, central: bool, [a, b, c]: [&'static [f64]; 3]) -> W {
     polynomial_of(v, a.len(), |i| {
-        // All three at hand before one is chosen: a chosen address would be a load from who knows where.
+        // All three at hand before one is chosen: a chosen address would be a load from who knows
+        // where.
         let [a, b, c] = [a[i], b[i], c[i]].map(W::lit);
         let tail = if near { b } else { c };
         if central { a } else { tail }
@@ -50,8 +52,8 @@ pub(crate) fn erfc_inv_inside<T: Real>(q: T) -> T {
     inverse_of_complement::<T, T>(q, ln_normal)
 }
 
-/// The same to the digits of `T`, computed in the wide scalar: the error is that of the fit, which is smooth, and so the
-/// result, rounded to `T`, is monotone ulp by ulp. Samplers want that.
+/// The same to the digits of `T`, computed in the wide scalar: the error is that of the fit, which
+/// is smooth, and so the result, rounded to `T`, is monotone ulp by ulp. Samplers want that.
 #[inline(always)]
 pub(crate) fn erfc_inv_inside_wide<T: Real>(q: T::Wide) -> T::Wide {
     inverse_of_complement::<T, T::Wide>(q, ln_normal_wide::<T>)
@@ -59,8 +61,8 @@ pub(crate) fn erfc_inv_inside_wide<T: Real>(q: T::Wide) -> T::Wide {
 
 /// The inverse of the error function: the x with erf x = p.
 ///
-/// Up to |p| = 0.9, x = p·R(−ln(1 − p²)); beyond, x = R(√(−ln(1 − |p|))), R a rational function: one for the
-/// tail in f32, two in f64. Only coefficients are selected.
+/// Up to |p| = 0.9, x = p·R(−ln(1 − p²)); beyond, x = R(√(−ln(1 − |p|))), R a rational function:
+/// one for the tail in f32, two in f64. Only coefficients are selected.
 ///
 /// # Domain
 /// −1 to 1.
@@ -82,8 +84,9 @@ pub(crate) fn erfc_inv_inside_wide<T: Real>(q: T::Wide) -> T::Wide {
 /// ```
 ///
 /// # References
-/// The intervals and their variables are those of M. J. Wichura, "Algorithm AS 241", Appl. Statist. 37 (1988);
-/// the logarithm in the middle that of M. Giles, "Approximating the erfinv function", GPU Computing Gems (2011).
+/// The intervals and their variables are those of M. J. Wichura, "Algorithm AS 241", Appl. Statist.
+/// 37 (1988); the logarithm in the middle that of M. Giles, "Approximating the erfinv function",
+/// GPU Computing Gems (2011).
 #[must_use]
 #[inline(always)]
 pub fn erf_inv<T: Real>(p: T) -> T {

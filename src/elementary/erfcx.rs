@@ -15,8 +15,8 @@ pub(super) fn erfcx_of_positive<T: Real>(x: T) -> T {
 
 /// The scaled complementary error function e^(x²)·erfc x.
 ///
-/// For x ≥ 0 one rational function with positive coefficients, or the asymptote 1/(√π x) where it is that to
-/// rounding; for x < 0 reflected: 2e^(x²) − erfcx(−x).
+/// For x ≥ 0 one rational function with positive coefficients, or the asymptote 1/(√π x) where it
+/// is that to rounding; for x < 0 reflected: 2e^(x²) − erfcx(−x).
 ///
 /// # Domain
 /// Any number.
@@ -53,11 +53,13 @@ pub(crate) fn ierfcx_near<T: Real>(x: T) -> T {
     polynomial(x, T::IERFCX[0]) / polynomial(x, T::IERFCX[1])
 }
 
-/// The scaled integral of the complementary error function, e^(x²)·∫ₓ^∞ erfc(t)dt = 1/√π − x·erfcx x.
+/// The scaled integral of the complementary error function, e^(x²)·∫ₓ^∞ erfc(t)dt = 1/√π − x·erfcx
+/// x.
 ///
-/// Beckmann's masking is made of it: Λ(a) = e^(−a²)·ierfcx(a)/(2a). The difference on the right cancels (at x = 100
-/// its terms agree to four digits); this is a fit of the function itself by one rational function with positive
-/// coefficients, or the asymptote 1/(2√π x²) where it is that to rounding.
+/// Beckmann's masking is made of it: Λ(a) = e^(−a²)·ierfcx(a)/(2a). The difference on the right
+/// cancels (at x = 100 its terms agree to four digits); this is a fit of the function itself by one
+/// rational function with positive coefficients, or the asymptote 1/(2√π x²) where it is that to
+/// rounding.
 ///
 /// # Domain
 /// x ≥ 0.
@@ -69,7 +71,8 @@ pub(crate) fn ierfcx_near<T: Real>(x: T) -> T {
 /// ±0 → 1/√π, ∞ → 0, negative → NaN, NaN → NaN. Where x² overflows the result underflows gradually.
 ///
 /// # Accuracy
-/// f32 ≤ 8.5 ulp (worst at x = 192.5), f64 ≤ 6 ulp (worst at x = 1.05·10⁷); f32 ≤ 6.5 ulp up to x = 10.
+/// f32 ≤ 8.5 ulp (worst at x = 192.5), f64 ≤ 6 ulp (worst at x = 1.05·10⁷); f32 ≤ 6.5 ulp up to
+/// x = 10.
 ///
 /// # Example
 /// ```

@@ -33,8 +33,8 @@ fn scale<T: Real>(y: T, n: T) -> T {
 
 /// eˣ where it is a normal number: for a caller who knows, or who selects another value elsewhere.
 ///
-/// What `exp` spends on the ends of its range is left out, and with it subnormal results, of which each costs a
-/// processor a microcode assist of a hundred cycles and more.
+/// What `exp` spends on the ends of its range is left out, and with it subnormal results, of which
+/// each costs a processor a microcode assist of a hundred cycles and more.
 #[inline(always)]
 pub(crate) fn exp_normal<T: Real>(x: T) -> T {
     let n = round(x * T::lit(core::f64::consts::LOG2_E));
@@ -139,8 +139,8 @@ pub fn exp2<T: Real>(x: T) -> T {
 
 /// eˣ of an argument given in f64, so that a large one has no rounding of its own.
 ///
-/// At x = −80 half an ulp of an f32 argument is 3.8·10⁻⁶ of the result. The range is reduced in f64, P(r) evaluated
-/// in `T`, and the result rounded once. For f64 this is [`exp`].
+/// At x = −80 half an ulp of an f32 argument is 3.8·10⁻⁶ of the result. The range is reduced in
+/// f64, P(r) evaluated in `T`, and the result rounded once. For f64 this is [`exp`].
 ///
 /// # Domain
 /// Any number.
@@ -213,7 +213,8 @@ pub fn exp_m1<T: Real>(x: T) -> T {
     let high = y - n * T::lit(T::LN_2.0);
     let r = high + low;
     let p = high + (low + r * r * polynomial(r, T::EXP));
-    // 2ⁿ(p + 1) - 1 = 2^n₂·(2^n₁·p + (2^n₁ - 2^-n₂)): the bracket of powers is exact, or 1 is negligible
+    // 2ⁿ(p + 1) - 1 = 2^n₂·(2^n₁·p + (2^n₁ - 2^-n₂)): the bracket of powers is exact, or 1 is
+    // negligible
     let n1 = round(n * T::HALF);
     let n2 = n - n1;
     let s1 = n1.exp2_of_integer();
@@ -224,8 +225,8 @@ pub fn exp_m1<T: Real>(x: T) -> T {
 
 /// e^(−x²), the square formed without rounding.
 ///
-/// x² = h² + (x − h)(x + h), where h is x with the lower half of its digits zeroed: h² is exact, and the second term
-/// joins after the range reduction. Squaring first would lose x² ulp.
+/// x² = h² + (x − h)(x + h), where h is x with the lower half of its digits zeroed: h² is exact,
+/// and the second term joins after the range reduction. Squaring first would lose x² ulp.
 ///
 /// # Domain
 /// Any number.
@@ -247,7 +248,8 @@ pub fn exp_m1<T: Real>(x: T) -> T {
 /// ```
 ///
 /// # References
-/// W. J. Cody, "Rational Chebyshev approximations for the error function", Math. Comp. 23 (1969), for the split.
+/// W. J. Cody, "Rational Chebyshev approximations for the error function", Math. Comp. 23 (1969),
+/// for the split.
 #[must_use]
 #[inline(always)]
 pub fn exp_neg_square<T: Real>(x: T) -> T {

@@ -1,7 +1,8 @@
 //! Logarithms and powers.
 //!
-//! x = m·2ᵏ with √½ ≤ m < √2, f = m − 1, s = f/(2 + f): ln m = ln((1+s)/(1−s)) = f − s·(f − s²·P(s²)), and the
-//! first f is split off half its square so that little is lost to rounding (fdlibm's arrangement).
+//! x = m·2ᵏ with √½ ≤ m < √2, f = m − 1, s = f/(2 + f): ln m = ln((1+s)/(1−s)) = f − s·(f −
+//! s²·P(s²)), and the first f is split off half its square so that little is lost to rounding
+//! (fdlibm's arrangement).
 
 use super::bits::Bits;
 use super::exp::{exp_of_normal_range, exp_of_sum, round};
@@ -72,7 +73,8 @@ pub fn ln<T: Real>(x: T) -> T {
 
 /// The logarithm to base 2.
 ///
-/// The natural one of the fraction is left a sum of two, and log₂ e is one, so that only the last sum is rounded.
+/// The natural one of the fraction is left a sum of two, and log₂ e is one, so that only the last
+/// sum is rounded.
 ///
 /// # Domain
 /// x ≥ 0, denormals included.
@@ -126,8 +128,8 @@ pub(crate) fn ln_normal_wide<T: Real>(x: T::Wide) -> T::Wide {
 
 /// The natural logarithm in f64, to as many digits as a power in `T` needs.
 ///
-/// `exp_wide(g * ln_wide(x))` is xᵍ to an ulp in f32 for |g·ln x| ≤ 90. For f32 the polynomial is three terms shorter
-/// than that of [`ln`] in f64; for f64 it is [`ln`].
+/// `exp_wide(g * ln_wide(x))` is xᵍ to an ulp in f32 for |g·ln x| ≤ 90. For f32 the polynomial is
+/// three terms shorter than that of [`ln`] in f64; for f64 it is [`ln`].
 ///
 /// # Domain
 /// x ≥ 0, denormals included.
@@ -190,8 +192,9 @@ pub fn ln_1p<T: Real>(x: T) -> T {
 
 /// xᵍ of a basis given in f64.
 ///
-/// For f32 the logarithm and its product with g are f64. For f64 they are carried as sums of two numbers, to about
-/// 65 bits, since a power multiplies the relative error of the logarithm by g·ln x.
+/// For f32 the logarithm and its product with g are f64. For f64 they are carried as sums of two
+/// numbers, to about 65 bits, since a power multiplies the relative error of the logarithm by g·ln
+/// x.
 ///
 /// # Domain
 /// x ≥ 0, any finite g.
@@ -200,8 +203,8 @@ pub fn ln_1p<T: Real>(x: T) -> T {
 /// 0 to ∞.
 ///
 /// # Special cases
-/// x⁰ = 1 for every x ≥ 0 and ∞; 0ᵍ is 0 for g > 0 and ∞ for g < 0; negative x → NaN even for integer g; 1^±∞ → NaN;
-/// NaN → NaN, also where g = 0.
+/// x⁰ = 1 for every x ≥ 0 and ∞; 0ᵍ is 0 for g > 0 and ∞ for g < 0; negative x → NaN even for
+/// integer g; 1^±∞ → NaN; NaN → NaN, also where g = 0.
 ///
 /// # Accuracy
 /// For f64 ≤ 0.9 ulp with |g·ln x| ≤ 700 (worst at 0.231^9.70); f32 ≤ 0.8 ulp with |g·ln x| ≤ 90.
@@ -215,8 +218,9 @@ pub fn ln_1p<T: Real>(x: T) -> T {
 /// ```
 ///
 /// # References
-/// The sums follow the outline of fdlibm's `e_pow.c` (Sun Microsystems 1993); products are split as in
-/// T. J. Dekker, "A floating-point technique for extending the available precision", Numer. Math. 18 (1971).
+/// The sums follow the outline of fdlibm's `e_pow.c` (Sun Microsystems 1993); products are split as
+/// in T. J. Dekker, "A floating-point technique for extending the available precision", Numer.
+/// Math. 18 (1971).
 #[must_use]
 #[inline(always)]
 pub fn pow_wide<T: Real>(x: T::Wide, g: T) -> T {
@@ -226,8 +230,8 @@ pub fn pow_wide<T: Real>(x: T::Wide, g: T) -> T {
     if g == T::ZERO { one } else { y }
 }
 
-/// (numerator/denominator)^−g, for positive normal numbers in f64 and g ≥ 0, which spares a division and what only
-/// zeros, denormals and NaN need; |g·ln| of the ratio is at most 700.
+/// (numerator/denominator)^−g, for positive normal numbers in f64 and g ≥ 0, which spares a
+/// division and what only zeros, denormals and NaN need; |g·ln| of the ratio is at most 700.
 ///
 /// With the quotient q of the fractions within [√½, √2], ln q = 2 artanh s, s = (q−1)/(q+1).
 #[inline(always)]
@@ -253,8 +257,9 @@ pub(crate) fn inverse_power_of_ratio<T: Real>(numerator: T::Wide, denominator: T
 
 /// x^−g of a normal x ≥ 1 and 0 ≤ g ≤ 1 in the scalar itself, where its rounding of x may be borne.
 ///
-/// log₂ x = k + l with |l| ≤ ½. The products of k with both halves of g are exact, and so is their difference from the
-/// integer part of the exponent: only what is below 1 is rounded, to 6e-8 in f32.
+/// log₂ x = k + l with |l| ≤ ½. The products of k with both halves of g are exact, and so is their
+/// difference from the integer part of the exponent: only what is below 1 is rounded, to 6e-8 in
+/// f32.
 #[inline(always)]
 pub(crate) fn inverse_root<T: Real>(x: T, g: T) -> T {
     if !T::WIDENS {
@@ -288,7 +293,8 @@ fn pow<T: Real>(x: T, g: T) -> T {
 
 /// ln x as a sum, to about twelve more bits than the scalar has.
 ///
-/// ln m = ⅔·s·(3 + s² + 3s⁴·P(s²)): s, s² and the bracket are sums of a half-length number and a rest.
+/// ln m = ⅔·s·(3 + s² + 3s⁴·P(s²)): s, s² and the bracket are sums of a half-length number and a
+/// rest.
 #[inline(always)]
 fn ln_as_sum<T: Real>(x: T) -> (T, T) {
     let (f, k) = split(x);

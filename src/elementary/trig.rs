@@ -5,8 +5,8 @@ use crate::real::Real;
 
 /// (sin 2πu, cos 2πu), the angle in turns.
 ///
-/// The reduction to an eighth of a turn is exact, so that no argument is too large, and multiples of a quarter turn
-/// give exactly 0 and ±1.
+/// The reduction to an eighth of a turn is exact, so that no argument is too large, and multiples
+/// of a quarter turn give exactly 0 and ±1.
 ///
 /// # Domain
 /// Any finite number; from 2²³ (f32) or 2⁵² (f64) on, all numbers are whole turns.
@@ -18,7 +18,9 @@ use crate::real::Real;
 /// ±0 → (±0, 1); ±∞, NaN → NaN.
 ///
 /// # Accuracy
-/// Relative, also beside the zeros: sine f32 ≤ 1.75 ulp (worst at u = −7.917), f64 ≤ 1.7 ulp (worst at u = −0.4167); cosine f32 ≤ 1.75 ulp (worst at u = −1.833), f64 ≤ 1.7 ulp (worst at u = 0.3402). An ulp is at most ½·ε here.
+/// Relative, also beside the zeros: sine f32 ≤ 1.75 ulp (worst at u = −7.917), f64 ≤ 1.7 ulp (worst
+/// at u = −0.4167); cosine f32 ≤ 1.75 ulp (worst at u = −1.833), f64 ≤ 1.7 ulp (worst at u =
+/// 0.3402). An ulp is at most ½·ε here.
 ///
 /// # Example
 /// ```
@@ -48,8 +50,8 @@ pub fn sin_cos_turns<T: Real>(u: T) -> (T, T) {
 
 /// (sin 2πu, cos 2πu) for a random number: half the work of [`sin_cos_turns`].
 ///
-/// With t = |u − ½| − ¼, cos 2πu = sin 2πt and |sin 2πu| = cos 2πt: no quadrants, and one polynomial each, with the
-/// zeros of the cosine factored out.
+/// With t = |u − ½| − ¼, cos 2πu = sin 2πt and |sin 2πu| = cos 2πt: no quadrants, and one
+/// polynomial each, with the zeros of the cosine factored out.
 ///
 /// # Domain
 /// 0 ≤ u ≤ 1.
@@ -65,10 +67,11 @@ pub(crate) fn sin_cos_of_turn<T: Real>(u: T) -> (T, T) {
     (sin.copysign(from_half), t * polynomial(z, T::SIN_OF_TURN))
 }
 
-/// The angle of the point (x, y) from the x axis, in radians: the arcus tangent of y/x in the quadrant of the point.
+/// The angle of the point (x, y) from the x axis, in radians: the arcus tangent of y/x in the
+/// quadrant of the point.
 ///
-/// With r the quotient of the smaller by the larger of |x| and |y|, reduced to |r| ≤ tan(π/8) by atan r = π/4 +
-/// atan((r − 1)/(r + 1)): one division.
+/// With r the quotient of the smaller by the larger of |x| and |y|, reduced to |r| ≤ tan(π/8) by
+/// atan r = π/4 + atan((r − 1)/(r + 1)): one division.
 ///
 /// # Domain
 /// All numbers.
@@ -80,7 +83,8 @@ pub(crate) fn sin_cos_of_turn<T: Real>(u: T) -> (T, T) {
 /// (0, 0) → ±0 or ±π by the signs of y and x; infinities as in IEEE 754; NaN → NaN.
 ///
 /// # Accuracy
-/// Relative: f32 ≤ 1.85 ulp (worst known at y = 0.3906, x = 0.8915), f64 ≤ 1.8 ulp (worst at y = √2 − 1, x = 1).
+/// Relative: f32 ≤ 1.85 ulp (worst known at y = 0.3906, x = 0.8915), f64 ≤ 1.8 ulp (worst at y = √2
+/// − 1, x = 1).
 ///
 /// # Example
 /// ```

@@ -1,7 +1,8 @@
 //! Filtering in a pass that writes a G-buffer: α' before any light is known.
 //!
-//! Without a light there is no half vector; the normal itself stands for it, as in the worst case of a distant eye
-//! and a distant lamp in the mirror direction. What is stored is one α' or two, so the kernel 2Σ becomes a number:
+//! Without a light there is no half vector; the normal itself stands for it, as in the worst case
+//! of a distant eye and a distant lamp in the mirror direction. What is stored is one α' or two, so
+//! the kernel 2Σ becomes a number:
 //!
 //! | function | kernel | stored |
 //! |---|---|---|
@@ -12,20 +13,21 @@
 //!
 //! All add to α² and limit what they add by κ, the `limit` of a [`Kernel`].
 //!
-//! **A footprint of normals** comes from curvature, `Footprint::new(dx_du, dx_dv)` [`transformed`](Footprint::transformed)
-//! by the shape operator S (dn = S dx in the tangent plane), or from a 2×2 quad of pixels ([`quad_in_slopes`],
-//! [`quad_projected`]).
+//! **A footprint of normals** comes from curvature, `Footprint::new(dx_du, dx_dv)`
+//! [`transformed`](Footprint::transformed) by the shape operator S (dn = S dx in the tangent
+//! plane), or from a 2×2 quad of pixels ([`quad_in_slopes`], [`quad_projected`]).
 //!
 //! # Special cases
-//! α' is never below α, and never NaN for a finite α. Derivatives that are not finite give the largest kernel, κ. A
-//! shader's `saturate` is left to the caller: α may be above 1.
+//! α' is never below α, and never NaN for a finite α. Derivatives that are not finite give the
+//! largest kernel, κ. A shader's `saturate` is left to the caller: α may be above 1.
 //!
 //! # Accuracy
-//! Computed in f64 and rounded once. The derivatives are the error: differences of unit normals in f32 are uncertain by
-//! 1e-7 each.
+//! Computed in f64 and rounded once. The derivatives are the error: differences of unit normals in
+//! f32 are uncertain by 1e-7 each.
 //!
 //! # References
-//! Kaplanyan, Hill, Patney and Lefohn 2016, §§5.3 and 5.4; Tokuyoshi 2017, §4; Tokuyoshi and Kaplanyan 2021, Eq. 14.
+//! Kaplanyan, Hill, Patney and Lefohn 2016, §§5.3 and 5.4; Tokuyoshi 2017, §4; Tokuyoshi and
+//! Kaplanyan 2021, Eq. 14.
 
 use crate::Real;
 use crate::error::Error;
@@ -34,7 +36,8 @@ use crate::filter::covariance::{largest_kernel, variance_kaplanyan2016, variance
 use crate::frame::{Frame, normal_to_slope};
 use crate::vector::normalized;
 
-/// How wide a kernel is and may be: the variance σ² of the pixel filter in pixels², and the limit κ of what is added to α².
+/// How wide a kernel is and may be: the variance σ² of the pixel filter in pixels², and the limit κ
+/// of what is added to α².
 ///
 /// # Example
 /// ```
@@ -138,25 +141,30 @@ impl<T: Real> Kernel<T> {
 /// Which number stands for the two eigenvalues of 2Σ in an isotropic kernel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Bound {
-    /// Their sum, 2σ²(|∂ᵤn|² + |∂ᵥn|²): at least the larger one, so nothing shimmers; up to twice what is needed.
+    /// Their sum, 2σ²(|∂ᵤn|² + |∂ᵥn|²): at least the larger one, so nothing shimmers; up to twice
+    /// what is needed.
     ///
     /// # References
     /// Tokuyoshi 2017, Eqs. 11 and 13; Tokuyoshi and Kaplanyan 2019.
     Upper,
-    /// Their mean, σ²(|∂ᵤn|² + |∂ᵥn|²): the right α' where both are equal, half the larger one on a cylinder.
+    /// Their mean, σ²(|∂ᵤn|² + |∂ᵥn|²): the right α' where both are equal, half the larger one on a
+    /// cylinder.
     ///
     /// # References
     /// Tokuyoshi and Kaplanyan 2021, Eq. 14.
     Mean,
 }
 
-/// α' from the derivatives of the normal, in world or any other coordinates: no tangents are needed.
+/// α' from the derivatives of the normal, in world or any other coordinates: no tangents are
+/// needed.
 ///
-/// α'² = α² + min(f σ²(|∂ᵤn|² + |∂ᵥn|²), κ) with f = 2 for [`Bound::Upper`] and 1 for [`Bound::Mean`].
+/// α'² = α² + min(f σ²(|∂ᵤn|² + |∂ᵥn|²), κ) with f = 2 for [`Bound::Upper`] and 1 for
+/// [`Bound::Mean`].
 ///
 /// # Domain
-/// `dn_du`, `dn_dv`: the change of the unit normal from one pixel to the next (`ddx`, `ddy`). Differences of unit
-/// normals n and n' across θ have length 2 sin(θ/2), which is that of the steps of m.xy about their average.
+/// `dn_du`, `dn_dv`: the change of the unit normal from one pixel to the next (`ddx`, `ddy`).
+/// Differences of unit normals n and n' across θ have length 2 sin(θ/2), which is that of the steps
+/// of m.xy about their average.
 ///
 /// # Special cases
 /// As of the [module](self). NaN for α = NaN.
@@ -214,7 +222,8 @@ pub fn isotropic<T: Real>(alpha: T, footprint: Footprint<T>, kernel: &Kernel<T>,
     of_trace(alpha, a * a + b * b + (c * c + d * d), kernel, bound)
 }
 
-/// α' by the larger eigenvalue λ of Σ, α'² = α² + min(2λ, κ): the narrowest isotropic kernel that covers the footprint.
+/// α' by the larger eigenvalue λ of Σ, α'² = α² + min(2λ, κ): the narrowest isotropic kernel that
+/// covers the footprint.
 ///
 /// # Special cases
 /// As of the [module](self). NaN for α = NaN.
@@ -242,10 +251,12 @@ pub fn max_eigenvalue<T: Real>(alpha: T, footprint: Footprint<T>, kernel: &Kerne
 
 /// [αx', αy'] by the bounding rectangle b of the footprint: αᵢ'² = αᵢ² + min(2σ²bᵢ², κ).
 ///
-/// Not an upper bound, though the papers take it for one: along a diagonal, 2Σ has the eigenvalue 4σ²b², twice this kernel.
+/// Not an upper bound, though the papers take it for one: along a diagonal, 2Σ has the eigenvalue
+/// 4σ²b², twice this kernel.
 ///
 /// # Special cases
-/// As of the [module](self): a footprint that is not finite has the kernel κ along both axes. NaN for α = NaN.
+/// As of the [module](self): a footprint that is not finite has the kernel κ along both axes. NaN
+/// for α = NaN.
 ///
 /// # Example
 /// ```
@@ -258,7 +269,8 @@ pub fn max_eigenvalue<T: Real>(alpha: T, footprint: Footprint<T>, kernel: &Kerne
 /// ```
 ///
 /// # References
-/// Kaplanyan, Hill, Patney and Lefohn 2016, §5.3 and Eq. 20; Tokuyoshi and Kaplanyan 2021, Listing 3.
+/// Kaplanyan, Hill, Patney and Lefohn 2016, §5.3 and Eq. 20; Tokuyoshi and Kaplanyan 2021,
+/// Listing 3.
 #[inline]
 #[must_use]
 pub fn rectangle<T: Real>(alphas: [T; 2], footprint: Footprint<T>, kernel: &Kernel<T>) -> [T; 2] {
@@ -266,7 +278,8 @@ pub fn rectangle<T: Real>(alphas: [T; 2], footprint: Footprint<T>, kernel: &Kern
     [widened(alphas[0], x), widened(alphas[1], y)]
 }
 
-/// One α' for both axes by the longer side of the bounding rectangle: α'² = α² + min(2σ² max(b)², κ).
+/// One α' for both axes by the longer side of the bounding rectangle: α'² = α² + min(2σ² max(b)²,
+/// κ).
 ///
 /// Its kernel is at least half and at most twice that of [`max_eigenvalue`]; see [`rectangle`].
 ///
@@ -282,18 +295,20 @@ pub fn rectangle_maximum<T: Real>(alpha: T, footprint: Footprint<T>, kernel: &Ke
     widened(alpha, x.max(y))
 }
 
-/// The footprint in slopes of the average normal of a 2×2 quad of pixels, as their frames turn under it.
+/// The footprint in slopes of the average normal of a 2×2 quad of pixels, as their frames turn
+/// under it.
 ///
-/// The derivative of a normal in its own frame is 0; the papers take the average normal of the quad, the same for all
-/// its pixels, and differentiate what each frame sees of it. The frames are those of the pixels (0, 0), (1, 0), (0, 1) and
-/// (1, 1), their tangents continuous.
+/// The derivative of a normal in its own frame is 0; the papers take the average normal of the
+/// quad, the same for all its pixels, and differentiate what each frame sees of it. The frames are
+/// those of the pixels (0, 0), (1, 0), (0, 1) and (1, 1), their tangents continuous.
 ///
 /// # Special cases
-/// An average on the horizon of a frame, or none (opposite normals), gives a footprint that is not finite: the
-/// largest kernel.
+/// An average on the horizon of a frame, or none (opposite normals), gives a footprint that is not
+/// finite: the largest kernel.
 ///
 /// # Accuracy
-/// Differences of components of about ε: in f32 what is below 2e-7 is rounding, far below the smallest α in use.
+/// Differences of components of about ε: in f32 what is below 2e-7 is rounding, far below the
+/// smallest α in use.
 ///
 /// # Example
 /// ```

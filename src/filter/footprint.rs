@@ -13,11 +13,13 @@ use crate::real::{Real, Vector};
 
 /// The steps of the half vector from one pixel to the next, along u and along v: the rows of Δ.
 ///
-/// In slopes, or in the projected space of m.xy; which of the two is for the caller to know. To first order the half
-/// vectors of a pixel are the parallelogram of slopes h ± ½ du ± ½ dv. The signs of the steps do not matter.
+/// In slopes, or in the projected space of m.xy; which of the two is for the caller to know. To
+/// first order the half vectors of a pixel are the parallelogram of slopes h ± ½ du ± ½ dv. The
+/// signs of the steps do not matter.
 ///
 /// # Special cases
-/// Steps that are not finite give a Σ that is not, and filters refuse it; [`clamped`](Self::clamped) replaces them.
+/// Steps that are not finite give a Σ that is not, and filters refuse it;
+/// [`clamped`](Self::clamped) replaces them.
 ///
 /// # Example
 /// ```
@@ -92,7 +94,8 @@ impl<T: Real> Footprint<T> {
     /// [`covariance`](crate::filter::covariance) names the usual ones: 0.25, 1/(2π), 1/12.
     ///
     /// # References
-    /// Kaplanyan et al. 2016, Eq. 13, whose outer product is misprinted; Tokuyoshi 2017, Eqs. 2 and 7.
+    /// Kaplanyan et al. 2016, Eq. 13, whose outer product is misprinted; Tokuyoshi 2017, Eqs. 2
+    /// and 7.
     #[inline(always)]
     #[must_use]
     pub fn covariance(&self, variance: T) -> Covariance<T> {
@@ -111,11 +114,12 @@ impl<T: Real> Footprint<T> {
         [a.abs() + c.abs(), b.abs() + d.abs()].into()
     }
 
-    /// The covariance σ² diag(extents²) of the bounding rectangle: a biased kernel that depends less on the quality of
-    /// the derivatives.
+    /// The covariance σ² diag(extents²) of the bounding rectangle: a biased kernel that depends
+    /// less on the quality of the derivatives.
     ///
-    /// Its variances along the axes are never smaller than those of [`covariance`](Self::covariance), so highlights are
-    /// blurred more; along the diagonals they can be smaller, down to a half, because it has no correlation.
+    /// Its variances along the axes are never smaller than those of
+    /// [`covariance`](Self::covariance), so highlights are blurred more; along the diagonals they
+    /// can be smaller, down to a half, because it has no correlation.
     ///
     /// # References
     /// Kaplanyan et al. 2016, §5.3; Tokuyoshi 2017, Listing 3.
@@ -126,11 +130,12 @@ impl<T: Real> Footprint<T> {
         Covariance::axis_aligned(variance * (x * x), variance * (y * y))
     }
 
-    /// The footprint shrunk so that no extent exceeds `largest` (the papers' λ, 1 in slopes), its shape kept.
+    /// The footprint shrunk so that no extent exceeds `largest` (the papers' λ, 1 in slopes), its
+    /// shape kept.
     ///
     /// # Special cases
-    /// A footprint that is not finite, as at half vectors on the horizon, becomes the square of `largest` by `largest`:
-    /// the largest kernel, where nothing is known.
+    /// A footprint that is not finite, as at half vectors on the horizon, becomes the square of
+    /// `largest` by `largest`: the largest kernel, where nothing is known.
     ///
     /// # References
     /// Kaplanyan et al. 2016, §5.2.

@@ -1,16 +1,18 @@
 //! GGX convolved with a Gaussian, its tail kept.
 //!
-//! GGX is a mixture of Beckmann surfaces of all precisions: with x distributed as e^{−x}, GGX(A) is the mean of
-//! Beckmann(A/x). Convolution with a Gaussian of covariance Σ adds 2Σ to each of them, so that exactly
+//! GGX is a mixture of Beckmann surfaces of all precisions: with x distributed as e^{−x}, GGX(A) is
+//! the mean of Beckmann(A/x). Convolution with a Gaussian of covariance Σ adds 2Σ to each of them,
+//! so that exactly
 //!
 //! GGX(A) ⊛ N(Σ) = ∫₀^∞ e^{−x} Beckmann(A/x + 2Σ) dx.
 //!
-//! Its core becomes the Gaussian, its tail stays that of GGX(A): the far slopes are too far to be moved. The proxy
-//! GGX(A + 2Σ) has neither: for σ = α its peak is 24 % too high and its tail 3 times, for σ = 2α 9 times too bright; four tenths
-//! of the light can be at wrong slopes.
+//! Its core becomes the Gaussian, its tail stays that of GGX(A): the far slopes are too far to be
+//! moved. The proxy GGX(A + 2Σ) has neither: for σ = α its peak is 24 % too high and its tail 3
+//! times, for σ = 2α 9 times too bright; four tenths of the light can be at wrong slopes.
 //!
-//! [`filtered`] is a mixture of surfaces of its own: a GGX of weight such that the tail is right, and Beckmann surfaces, each
-//! filtered exactly. Being a mixture, it has exact masks and samplers. [`p22`] is the integral itself.
+//! [`filtered`] is a mixture of surfaces of its own: a GGX of weight such that the tail is right,
+//! and Beckmann surfaces, each filtered exactly. Being a mixture, it has exact masks and samplers.
+//! [`p22`] is the integral itself.
 //!
 //! | form | light at wrong slopes, ½ ∫ \|ΔP22\| | at the peak | tail |
 //! |---|---|---|---|
@@ -94,11 +96,12 @@ type Core<T> = (T, Microsurface<Beckmann, Linear<T>>);
 /// GGX(A) ⊛ N(Σ) as a GGX and six Beckmann surfaces.
 ///
 /// # Errors
-/// [`Error::Covariance`] if Σ is not finite, or with A leaves [`alpha_range`](crate::roughness::alpha_range).
+/// [`Error::Covariance`] if Σ is not finite, or with A leaves
+/// [`alpha_range`](crate::roughness::alpha_range).
 ///
 /// # Accuracy
-/// See the table of the [module](self); at Σ = 0 P22 is GGX to a relative 1.9 %, so for σ below 0.1 α nothing is nearer
-/// than no filter. [`Microsurface::change_by_filter`] tells; it is 0.02 there.
+/// See the table of the [module](self); at Σ = 0 P22 is GGX to a relative 1.9 %, so for σ below 0.1
+/// α nothing is nearer than no filter. [`Microsurface::change_by_filter`] tells; it is 0.02 there.
 ///
 /// # Example
 /// ```
@@ -129,8 +132,8 @@ pub fn filtered<M: Map>(
     of_seven().ok_or_else(|| covariance.refused())
 }
 
-/// GGX(A) ⊛ N(Σ) as a GGX and one Beckmann surface: cheaper, exact at Σ = 0, best for kernels that are about as wide in
-/// every direction. Across a long kernel GGX has a tail that no Gaussian has.
+/// GGX(A) ⊛ N(Σ) as a GGX and one Beckmann surface: cheaper, exact at Σ = 0, best for kernels that
+/// are about as wide in every direction. Across a long kernel GGX has a tail that no Gaussian has.
 ///
 /// # Errors
 /// As [`filtered`].
@@ -225,7 +228,8 @@ impl<T: Real, const N: usize> FilteredGgx<T, N> {
         of_tail: impl Fn(&Microsurface<Ggx, Linear<T>>) -> T,
         of_core: impl Fn(&Microsurface<Beckmann, Linear<T>>) -> T,
     ) -> T {
-        // A kernel too narrow to matter leaves cores of weight 0: nothing, also where Λ is infinite.
+        // A kernel too narrow to matter leaves cores of weight 0: nothing, also where Λ is
+        // infinite.
         let part = |weight: T, value: T| if weight > T::ZERO { weight * value } else { T::ZERO };
         let tail = self.tail.0 * of_tail(&self.tail.1);
         self.cores.iter().fold(tail, |sum, (weight, core)| sum + part(*weight, of_core(core)))
@@ -337,7 +341,8 @@ impl<T: Real, const N: usize> StagedVndf for FilteredGgx<T, N> {
 
 /// P22 of GGX(A) ⊛ N(Σ) at a slope, by quadrature of the integral over Beckmann surfaces.
 ///
-/// The trapezoid rule in ln x with steps of ¼: about 120 Gaussians. A reference for the other forms.
+/// The trapezoid rule in ln x with steps of ¼: about 120 Gaussians. A reference for the other
+/// forms.
 ///
 /// # Returns
 /// 1/slope². NaN for a Σ or a slope that is not finite.

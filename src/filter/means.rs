@@ -11,7 +11,8 @@ use crate::map::{Map, factor, seen_by_profile};
 use crate::microsurface::Microsurface;
 use crate::profile::Profile;
 
-/// Edges and slopes beyond this, in units of α, count as infinite: fourth powers of them are still numbers. No f32 reaches it.
+/// Edges and slopes beyond this, in units of α, count as infinite: fourth powers of them are still
+/// numbers. No f32 reaches it.
 const LARGEST: f64 = 1e70;
 
 /// A profile whose slopes can be averaged over parallelograms.

@@ -1,14 +1,16 @@
 //! Normal maps: what lies below a pixel in a texture, as a mean slope and one more Σ.
 //!
-//! Averaged normals lose the roughness of the bumps between which they lie. [`Moments`] of slopes keep it through mip
-//! maps and layers (LEAN mapping); [`variance_toksvig2005`] guesses it from the length of the averaged normal.
+//! Averaged normals lose the roughness of the bumps between which they lie. [`Moments`] of slopes
+//! keep it through mip maps and layers (LEAN mapping); [`variance_toksvig2005`] guesses it from the
+//! length of the averaged normal.
 //!
-//! Moments are kept central, as mean and covariance. Textures hold the raw E\[t\] and E\[ttᵀ\], which are averaged
-//! by the hardware: [`Moments::from_raw`] and [`Moments::raw`] convert, and the difference E\[ttᵀ\] − E\[t\]E\[t\]ᵀ cancels.
-//! An entry stored with relative precision ε leaves a variance uncertain by ε|E\[t\]|²: with slopes of 1 and 11 bits
-//! (half floats) no σ below 0.022 survives, in f32 none below 3e-4. Moments about a `reference` slope near the mean
-//! ([`Moments::raw_about`]), the same for all texels that are averaged together, are as easily averaged and lose only
-//! ε|E\[t\] − r|².
+//! Moments are kept central, as mean and covariance. Textures hold the raw E\[t\] and E\[ttᵀ\],
+//! which are averaged by the hardware: [`Moments::from_raw`] and [`Moments::raw`] convert, and the
+//! difference E\[ttᵀ\] − E\[t\]E\[t\]ᵀ cancels. An entry stored with relative precision ε leaves a
+//! variance uncertain by ε|E\[t\]|²: with slopes of 1 and 11 bits (half floats) no σ below 0.022
+//! survives, in f32 none below 3e-4. Moments about a `reference` slope near the mean
+//! ([`Moments::raw_about`]), the same for all texels that are averaged together, are as easily
+//! averaged and lose only ε|E\[t\] − r|².
 //!
 //! # Example
 //! The footprint of the pixel and the texture below it, in one filter:
@@ -26,9 +28,9 @@
 //! ```
 //!
 //! # References
-//! Olano and Baker 2010, "LEAN mapping"; Dupuy, Heitz, Iehl, Poulin, Neyret and Ostromoukhov 2013, "Linear efficient
-//! antialiased displacement and reflectance mapping"; Toksvig 2005, "Mipmapping normal maps"; Kaplanyan, Hill, Patney and
-//! Lefohn 2016, §5.5.
+//! Olano and Baker 2010, "LEAN mapping"; Dupuy, Heitz, Iehl, Poulin, Neyret and Ostromoukhov 2013,
+//! "Linear efficient antialiased displacement and reflectance mapping"; Toksvig 2005, "Mipmapping
+//! normal maps"; Kaplanyan, Hill, Patney and Lefohn 2016, §5.5.
 
 mod toksvig;
 
@@ -43,8 +45,8 @@ pub use toksvig::{alpha_toksvig2005, exponent_toksvig2005, variance_toksvig2005}
 
 /// The mean and the covariance of the slopes of a part of a surface.
 ///
-/// `+` is the sum of two independent height fields, layers of bumps: slopes add, and so do means and covariances. In raw
-/// moments it is E₁ + E₂ + E\[t₁\]E\[t₂\]ᵀ + E\[t₂\]E\[t₁\]ᵀ.
+/// `+` is the sum of two independent height fields, layers of bumps: slopes add, and so do means
+/// and covariances. In raw moments it is E₁ + E₂ + E\[t₁\]E\[t₂\]ᵀ + E\[t₂\]E\[t₁\]ᵀ.
 ///
 /// # Special cases
 /// Made of numbers that are not finite they are not [finite](Self::is_finite):
@@ -52,8 +54,9 @@ pub use toksvig::{alpha_toksvig2005, exponent_toksvig2005, variance_toksvig2005}
 /// parts out, so that one bad texel does not spoil the levels above it.
 ///
 /// # Accuracy
-/// Means and covariances are formed in f64. With no difference of moments, a covariance is as accurate as the slopes
-/// are: f32 slopes 1 ± 1e-4 have their variance to 1e-3, where raw f32 moments have no digit of it.
+/// Means and covariances are formed in f64. With no difference of moments, a covariance is as
+/// accurate as the slopes are: f32 slopes 1 ± 1e-4 have their variance to 1e-3, where raw f32
+/// moments have no digit of it.
 ///
 /// # References
 /// Olano and Baker 2010, §3 and §5.
@@ -137,8 +140,8 @@ impl<T: Real> Moments<T> {
         Self { mean: [rx + d[0], ry + d[1]], covariance: [minus(xx, x, x), minus(xy, x, y), minus(yy, y, y)] }
     }
 
-    /// E\[t − r\] and E\[(t − r)(t − r)ᵀ\] for a reference slope r: linear in the distribution of t like the raw moments, and
-    /// without their loss where r is near the mean.
+    /// E\[t − r\] and E\[(t − r)(t − r)ᵀ\] for a reference slope r: linear in the distribution of t
+    /// like the raw moments, and without their loss where r is near the mean.
     #[inline]
     #[must_use]
     pub fn raw_about(&self, reference: T::Vec2) -> (T::Vec2, [T; 3]) {
@@ -179,7 +182,8 @@ impl<T: Real> Moments<T> {
     /// Weights from 0; with negative ones the covariance may be indefinite.
     ///
     /// # References
-    /// Chan, Golub and LeVeque 1979, "Updating formulae and a pairwise algorithm for computing sample variances".
+    /// Chan, Golub and LeVeque 1979, "Updating formulae and a pairwise algorithm for computing
+    /// sample variances".
     #[must_use]
     pub fn weighted_mean(parts: impl IntoIterator<Item = (Self, T)>) -> Option<Self> {
         let (mut total, mut mean, mut covariance) = (0.0, [0.0; 2], [0.0; 3]);
@@ -224,8 +228,9 @@ impl<T: Real> Moments<T> {
 
     /// Of J t: slopes in other coordinates.
     ///
-    /// A slope is a gradient: if q are coordinates of the plane and u = f(q) those of the texture, a height h(u) has the slopes
-    /// J ∂h/∂u with J = (∂u/∂q)ᵀ. A texture repeated k times (u = kq) is k times as steep.
+    /// A slope is a gradient: if q are coordinates of the plane and u = f(q) those of the texture,
+    /// a height h(u) has the slopes J ∂h/∂u with J = (∂u/∂q)ᵀ. A texture repeated k times (u = kq)
+    /// is k times as steep.
     #[inline]
     #[must_use]
     pub fn transformed(&self, jacobian: T::Mat2) -> Self {
@@ -254,8 +259,8 @@ impl<T: Real> Moments<T> {
         slope_to_normal(self.mean)
     }
 
-    /// The covariance E\[ttᵀ\] − E\[t\]E\[t\]ᵀ about the mean slope, in the frame of the surface; the nearest that is positive
-    /// semidefinite.
+    /// The covariance E\[ttᵀ\] − E\[t\]E\[t\]ᵀ about the mean slope, in the frame of the surface;
+    /// the nearest that is positive semidefinite.
     #[inline]
     #[must_use]
     pub fn covariance(&self) -> Covariance<T> {
@@ -265,11 +270,12 @@ impl<T: Real> Moments<T> {
         Covariance::nearest(xx, xy, yy)
     }
 
-    /// The frame tilted to the [`mesonormal`](Self::mesonormal) and the covariance of slopes in it, to first order.
+    /// The frame tilted to the [`mesonormal`](Self::mesonormal) and the covariance of slopes in it,
+    /// to first order.
     ///
     /// For shading with the mesonormal as the normal. The frame is turned about z × n, as
-    /// [`Frame::from_normal`] does; along the tilt a slope t + dt becomes cos²θ dt there, across it cosθ dt:
-    /// J = cosθ (I − (1 − cosθ) r rᵀ), r the direction of the tilt.
+    /// [`Frame::from_normal`] does; along the tilt a slope t + dt becomes cos²θ dt there, across it
+    /// cosθ dt: J = cosθ (I − (1 − cosθ) r rᵀ), r the direction of the tilt.
     ///
     /// # Accuracy
     /// Relative to the covariance, of the order of σ tanθ; exact for a mean of 0.

@@ -1,31 +1,36 @@
 //! Filtering in the projected space of m.xy: stable where the half vector is at grazing angles.
 //!
-//! A step of the half vector is |dt| = |dm.xy|/m.z³ at most in slopes: near the horizon the errors of its derivative, and
-//! kernels themselves, grow without bound, and A + 2Σ of slopes shows false highlights there. On the disc of m.xy they stay
-//! what they are. (Filters that keep the tail of GGX, [`gaussian`](super::gaussian) and [`polygon`](super::polygon), have
-//! no such highlights in slopes either.)
+//! A step of the half vector is |dt| = |dm.xy|/m.z³ at most in slopes: near the horizon the errors
+//! of its derivative, and kernels themselves, grow without bound, and A + 2Σ of slopes shows false
+//! highlights there. On the disc of m.xy they stay what they are. (Filters that keep the tail of
+//! GGX, [`gaussian`](super::gaussian) and [`polygon`](super::polygon), have no such highlights in
+//! slopes either.)
 //!
 //! # Derivation
-//! With m.z² = 1 − |m.xy|², GGX of roughness matrix A is m.xyᵀA⁻¹m.xy + m.z² = 1 + m.xyᵀAₚ⁻¹m.xy: on the disc it is again
-//! GGX, of the matrix Aₚ = (A⁻¹ − I)⁻¹. The method adds the kernel there and goes back, in three steps,
+//! With m.z² = 1 − |m.xy|², GGX of roughness matrix A is m.xyᵀA⁻¹m.xy + m.z² = 1 + m.xyᵀAₚ⁻¹m.xy:
+//! on the disc it is again GGX, of the matrix Aₚ = (A⁻¹ − I)⁻¹. The method adds the kernel there
+//! and goes back, in three steps,
 //!
 //! > Aₚ = (A⁻¹ − I)⁻¹,  Aₚ' = Aₚ + 2Σ,  A' = (Aₚ'⁻¹ + I)⁻¹.
 //!
-//! The steps are infinite at α = 1 and lose their digits near it and near 0. Here they are one: with B = I − A and
-//! 2Σ = CᵀC, Woodbury's identity gives
+//! The steps are infinite at α = 1 and lose their digits near it and near 0. Here they are one:
+//! with B = I − A and 2Σ = CᵀC, Woodbury's identity gives
 //!
 //! > A' = A + (BCᵀ)(I + CBCᵀ)⁻¹(CB),
 //!
-//! a positive semidefinite update, finite for a singular Σ, for α = 1 and for α → 0, and never larger than B: A' ≤ I.
+//! a positive semidefinite update, finite for a singular Σ, for α = 1 and for α → 0, and never
+//! larger than B: A' ≤ I.
 //!
 //! # α above 1
-//! There the density on the disc grows towards its rim, and Aₚ has a negative eigenvalue. B then counts as 0 in that
-//! principal direction: the kernel leaves it as it is and filters the other. The result is continuous in A, and no α
-//! is ever lowered. Shaders that limit Aₚ to 1 lower every α above 0.707, even for Σ = 0.
+//! There the density on the disc grows towards its rim, and Aₚ has a negative eigenvalue. B then
+//! counts as 0 in that principal direction: the kernel leaves it as it is and filters the other.
+//! The result is continuous in A, and no α is ever lowered. Shaders that limit Aₚ to 1 lower every
+//! α above 0.707, even for Σ = 0.
 //!
 //! # References
-//! Tokuyoshi and Kaplanyan 2021, "Stable geometric specular antialiasing with projected-space NDF filtering", JCGT 10(2),
-//! Eqs. 3–7; Tokuyoshi 2017, "Error reduction and simplification for shading anti-aliasing", §3.2.
+//! Tokuyoshi and Kaplanyan 2021, "Stable geometric specular antialiasing with projected-space NDF
+//! filtering", JCGT 10(2), Eqs. 3–7; Tokuyoshi 2017, "Error reduction and simplification for
+//! shading anti-aliasing", §3.2.
 
 use crate::Real;
 use crate::elementary::exact::difference_of_products;
@@ -38,16 +43,17 @@ use crate::map::{AxisAligned, Gram, Isotropic, Linear, Map, factor};
 use crate::microsurface::Microsurface;
 use crate::profile::ShapeInvariant;
 
-/// The surface convolved with the footprint in projected space: A' = (((A⁻¹ − I)⁻¹ + 2Σ)⁻¹ + I)⁻¹, Σ = σ²ΔᵀΔ.
+/// The surface convolved with the footprint in projected space: A' = (((A⁻¹ − I)⁻¹ + 2Σ)⁻¹ + I)⁻¹,
+/// Σ = σ²ΔᵀΔ.
 ///
 /// # Domain
 /// `footprint`: the steps of m.xy per pixel. `variance`: σ² of the pixel filter in pixels²;
-/// [`covariance::variance_tokuyoshi2021`](crate::filter::covariance::variance_tokuyoshi2021) is the paper's.
+/// [`covariance::variance_tokuyoshi2021`](crate::filter::covariance::variance_tokuyoshi2021) is the
+/// paper's.
 ///
 /// # Special cases
-/// A footprint of 0 gives the same surface. Where a principal α is 1 or more, it stays as it is; see the
-/// [module](self). Footprints of any size (in f64 up to 1e70) give
-/// A' ≤ I where A ≤ I.
+/// A footprint of 0 gives the same surface. Where a principal α is 1 or more, it stays as it is;
+/// see the [module](self). Footprints of any size (in f64 up to 1e70) give A' ≤ I where A ≤ I.
 ///
 /// # Errors
 /// [`Error::Covariance`] if Σ is not finite. [`Footprint::clamped`] makes footprints finite.
@@ -83,7 +89,8 @@ pub fn filtered<M: Map>(
     filtered_by(surface, footprint.covariance(variance))
 }
 
-/// The same for a covariance Σ of m.xy, of whatever cause: sums of footprints, the extent of a lamp.
+/// The same for a covariance Σ of m.xy, of whatever cause: sums of footprints, the extent of a
+/// lamp.
 ///
 /// # Errors
 /// [`Error::Covariance`] if Σ is not finite, or so large that det Σ is not.
@@ -115,8 +122,9 @@ impl OnDisc {
 
     /// A + (BCᵀ)(I + CBCᵀ)⁻¹(CB) of A = RᵀR and triangular C.
     ///
-    /// With LLᵀ = I + CBCᵀ the update is DᵀD, D = L⁻¹CB. Its second row is a difference as Cholesky's method has it; from
-    /// BJB = det B·J, J a quarter turn, it is c22 (b₂ + c11 det B·Jc₁)/√(K11 det K), with K = I + CBCᵀ and c₁ the first row of C.
+    /// With LLᵀ = I + CBCᵀ the update is DᵀD, D = L⁻¹CB. Its second row is a difference as
+    /// Cholesky's method has it; from BJB = det B·J, J a quarter turn, it is c22 (b₂ + c11 det
+    /// B·Jc₁)/√(K11 det K), with K = I + CBCᵀ and c₁ the first row of C.
     #[inline(always)]
     pub(crate) fn convolved<T: Real>(&self, covariance: Covariance<T>) -> Gram {
         let Self { r: [r11, r12, r22], b: [xx, xy, yy], det_b } = *self;
@@ -163,8 +171,9 @@ fn complement([r11, r12, r22]: [f64; 3]) -> ([f64; 3], f64) {
     if smallest >= 1.0 {
         return ([0.0; 3], 0.0);
     }
-    // (1 − smallest)·vvᵀ, v the direction of the smaller: vvᵀ = (largest·I − A)/(2 radius), whose diagonal is
-    // (1 ∓ half_difference/radius)/2; the smaller of the two by their product (xy/radius)²/4.
+    // (1 − smallest)·vvᵀ, v the direction of the smaller: vvᵀ = (largest·I − A)/(2 radius), whose
+    // diagonal is (1 ∓ half_difference/radius)/2; the smaller of the two by their product
+    // (xy/radius)²/4.
     let larger = 0.5 * (1.0 + half_difference.abs() / radius);
     let off_diagonal = 0.5 * (xy / radius);
     let smaller = off_diagonal * (off_diagonal / larger);
@@ -173,7 +182,8 @@ fn complement([r11, r12, r22]: [f64; 3]) -> ([f64; 3], f64) {
     ([b * p, b * off_diagonal, b * q], 0.0)
 }
 
-/// [`filtered`] of an isotropic surface by an isotropic Σ of m.xy: α'² = α² + 2v b²/(1 + 2v b), b = max(0, 1 − α²).
+/// [`filtered`] of an isotropic surface by an isotropic Σ of m.xy: α'² = α² + 2v b²/(1 + 2v b), b =
+/// max(0, 1 − α²).
 ///
 /// # Special cases
 /// v = 0 gives the same α, exactly; so does every v where α ≥ 1.
@@ -206,7 +216,8 @@ pub fn filtered_isotropic<T: Real>(
     Ok(Microsurface::new(*surface.profile(), Isotropic::new(alpha)?))
 }
 
-/// [`filtered`] of an axis-aligned surface by the variances of m.x and m.y: [`filtered_isotropic`] along each axis.
+/// [`filtered`] of an axis-aligned surface by the variances of m.x and m.y: [`filtered_isotropic`]
+/// along each axis.
 ///
 /// # Errors
 /// [`Error::Covariance`] unless both are finite and not negative.
@@ -228,11 +239,11 @@ pub fn filtered_axis_aligned<T: Real>(
     along_axes(surface, [2.0 * x, 2.0 * y])
 }
 
-/// An axis-aligned surface filtered by the bounding rectangle of the footprint, min(2σ²b², κ) along each axis: no
-/// matrix is needed, and it depends less on the quality of the derivatives.
+/// An axis-aligned surface filtered by the bounding rectangle of the footprint, min(2σ²b², κ) along
+/// each axis: no matrix is needed, and it depends less on the quality of the derivatives.
 ///
-/// The kernel is added on the disc. [`deferred::rectangle`](crate::filter::deferred::rectangle) adds the same kernel to α²
-/// itself, the paper's practical form, which widens more.
+/// The kernel is added on the disc. [`deferred::rectangle`](crate::filter::deferred::rectangle)
+/// adds the same kernel to α² itself, the paper's practical form, which widens more.
 ///
 /// # Special cases
 /// A footprint that is not finite gives the largest kernel, κ along both axes.
@@ -263,9 +274,9 @@ pub fn filtered_by_bounds<T: Real>(
 
 /// The surface whose roughness matrix is A + 2Σ, with Σ from steps of m.xy in place of slopes.
 ///
-/// It is [`Microsurface::filtered`] of a kernel that is narrower by h.z² to h.z³: exact in the highlight, and a
-/// filter that fades where derivatives are noise. The "practical" form of 2021, cheaper than [`filtered`] in a shader
-/// alone, since it needs no way back; it widens beyond α = 1.
+/// It is [`Microsurface::filtered`] of a kernel that is narrower by h.z² to h.z³: exact in the
+/// highlight, and a filter that fades where derivatives are noise. The "practical" form of 2021,
+/// cheaper than [`filtered`] in a shader alone, since it needs no way back; it widens beyond α = 1.
 ///
 /// # Errors
 /// As [`Microsurface::filtered`].

@@ -12,16 +12,18 @@ use crate::profile::ShapeInvariant;
 impl<P: ShapeInvariant, M: Map> Microsurface<P, M> {
     /// The surface whose roughness matrix is A + 2Σ.
     ///
-    /// For [`Beckmann`](crate::Beckmann) it is the convolution with a Gaussian of covariance Σ, exactly. For
-    /// [`Ggx`](crate::Ggx) it is the "proxy" of Kaplanyan et al. 2016: its peak is too high by up to 24 % and its tail by a
-    /// factor 1 + 2σ²/α²; [`gaussian::filtered`](crate::filter::gaussian::filtered) is nearer to the convolution.
+    /// For [`Beckmann`](crate::Beckmann) it is the convolution with a Gaussian of covariance Σ,
+    /// exactly. For [`Ggx`](crate::Ggx) it is the "proxy" of Kaplanyan et al. 2016: its peak is too
+    /// high by up to 24 % and its tail by a factor 1 + 2σ²/α²;
+    /// [`gaussian::filtered`](crate::filter::gaussian::filtered) is nearer to the convolution.
     ///
     /// # Errors
     /// [`Error::Covariance`] if Σ is not finite or makes a principal α larger than
     /// [`alpha_range`](crate::roughness::alpha_range).
     ///
     /// # Accuracy
-    /// The determinant is a sum of positive terms, so a long thin Σ loses no digits. A is exact to 2ε of its entries.
+    /// The determinant is a sum of positive terms, so a long thin Σ loses no digits. A is exact to
+    /// 2ε of its entries.
     ///
     /// # Example
     /// ```
@@ -67,16 +69,18 @@ impl<P: ShapeInvariant, M: Map> Microsurface<P, M> {
         Microsurface::new(*self.profile(), Linear::triangular(gram))
     }
 
-    /// How much filtering with Σ would change P22 at most, as a share of its peak: what is lost without.
+    /// How much filtering with Σ would change P22 at most, as a share of its peak: what is lost
+    /// without.
     ///
-    /// max |P22' − P22|/P22(0) = 1 − √(det A/det(A + 2Σ)), at slope 0. Below the error that a picture may show, filtering
-    /// can be skipped; of an 8-bit picture that is about 1/256.
+    /// max |P22' − P22|/P22(0) = 1 − √(det A/det(A + 2Σ)), at slope 0. Below the error that a
+    /// picture may show, filtering can be skipped; of an 8-bit picture that is about 1/256.
     ///
     /// # Returns
     /// 0 for Σ = 0, growing with Σ towards 1; NaN for a Σ that is not finite.
     ///
     /// # Accuracy
-    /// Exact for Beckmann; for GGX filtered by a true Gaussian the peak falls by more, at most 2 times as much.
+    /// Exact for Beckmann; for GGX filtered by a true Gaussian the peak falls by more, at most 2
+    /// times as much.
     ///
     /// # Example
     /// ```
@@ -104,8 +108,8 @@ impl<M: Map> Microsurface<Ggx, M> {
     /// How much convolution with a Gaussian of covariance Σ changes P22 at this slope, as a share
     /// of P22 there: an upper bound.
     ///
-    /// 12 tr(A⁻¹Σ)/(1 + tᵀA⁻¹t): far from the highlight the tail is smooth on the scale of the slope itself, and a pixel
-    /// there needs no filter even where the highlight needs one.
+    /// 12 tr(A⁻¹Σ)/(1 + tᵀA⁻¹t): far from the highlight the tail is smooth on the scale of the
+    /// slope itself, and a pixel there needs no filter even where the highlight needs one.
     ///
     /// It bounds the exact convolution ([`gaussian::p22`](crate::filter::gaussian::p22)), not
     /// [`filtered`](Self::filtered): A + 2Σ makes the tail brighter by a share that does not fall
@@ -138,14 +142,15 @@ impl<M: Map> Microsurface<Ggx, M> {
 }
 
 impl<P: ShapeInvariant, T: Real> Microsurface<P, Isotropic<T>> {
-    /// [`filtered`](Self::filtered) by slopes of the same variance v in every direction: α'² = α² + 2v.
+    /// [`filtered`](Self::filtered) by slopes of the same variance v in every direction: α'² = α² +
+    /// 2v.
     ///
     /// # Special cases
     /// v = 0 gives the same α, exactly.
     ///
     /// # Errors
-    /// [`Error::Covariance`] unless v is finite and not negative, [`Error::Alpha`] where α' is above
-    /// [`alpha_range`](crate::roughness::alpha_range).
+    /// [`Error::Covariance`] unless v is finite and not negative, [`Error::Alpha`] where α' is
+    /// above [`alpha_range`](crate::roughness::alpha_range).
     ///
     /// # Example
     /// ```
@@ -162,12 +167,12 @@ impl<P: ShapeInvariant, T: Real> Microsurface<P, Isotropic<T>> {
 }
 
 impl<P: ShapeInvariant, T: Real> Microsurface<P, AxisAligned<T>> {
-    /// [`filtered`](Self::filtered) by slopes of these variances along x and y, uncorrelated: αx'² = αx² + 2v_x,
-    /// αy'² = αy² + 2v_y.
+    /// [`filtered`](Self::filtered) by slopes of these variances along x and y, uncorrelated:
+    /// αx'² = αx² + 2v_x, αy'² = αy² + 2v_y.
     ///
     /// # Errors
-    /// [`Error::Covariance`] unless both are finite and not negative, [`Error::Alpha`] where an α' is above
-    /// [`alpha_range`](crate::roughness::alpha_range).
+    /// [`Error::Covariance`] unless both are finite and not negative, [`Error::Alpha`] where an α'
+    /// is above [`alpha_range`](crate::roughness::alpha_range).
     ///
     /// # Example
     /// ```
@@ -192,10 +197,11 @@ fn widened_alpha<T: Real>(alpha: T, variance: f64) -> T {
     T::lit(Real::sqrt(alpha * alpha + 2.0 * variance))
 }
 
-/// det(A + 2Σ) as a shader computes it: from the entries of the sum, and not below αx²αy² of the surface itself.
+/// det(A + 2Σ) as a shader computes it: from the entries of the sum, and not below αx²αy² of the
+/// surface itself.
 ///
-/// The difference of products loses all digits for long thin kernels, which the limit hides; [`Microsurface::filtered`]
-/// adds positive terms instead. Here for comparison.
+/// The difference of products loses all digits for long thin kernels, which the limit hides;
+/// [`Microsurface::filtered`] adds positive terms instead. Here for comparison.
 ///
 /// # References
 /// Tokuyoshi and Kaplanyan 2019, supplement, §1, "Practical implementation" (τ).

@@ -1,12 +1,14 @@
 //! Exact masks of GTR for integer γ, as closed forms whose terms are all positive.
 //!
-//! γ = 0 is GGX of α = 1. γ = 1, with t = α², L = ln t, r = √(z² + t s²), R = √(z² + s²) and δ = (1−t) s²/(R + r), is
-//! z Λ = (z ln(1 + δ/(z + r)) − δ)/L. From γ = 2 on the density is a finite mixture of Student-t profiles of width α,
-//! whose masks are elementary: see `integer.rs`. With e = r − z they are
+//! γ = 0 is GGX of α = 1. γ = 1, with t = α², L = ln t, r = √(z² + t s²), R = √(z² + s²) and δ =
+//! (1−t) s²/(R + r), is z Λ = (z ln(1 + δ/(z + r)) − δ)/L. From γ = 2 on the density is a finite
+//! mixture of Student-t profiles of width α, whose masks are elementary: see `integer.rs`. With e =
+//! r − z they are
 //!
 //! γ = 2: z Λ = e/2;  γ = 3: e (w₀/2 + w₁ e/(4r)), w₀ = 2t/(1+t), w₁ = (1−t)/(1+t); …
 //!
-//! They are Dimov's G1 at γ = 0, 1, 2, 3, 4, freed of the cancellation between their terms, and those up to γ = 10.
+//! They are Dimov's G1 at γ = 0, 1, 2, 3, 4, freed of the cancellation between their terms, and
+//! those up to γ = 10.
 //!
 //! References: Dimov 2015, §3; Atanasov, Koylazov, Dimov and Wilkie 2022, Eqs. 35–39.
 
@@ -108,8 +110,8 @@ impl<T: Real> Gtr<T, ()> {
     ///
     /// `Gtr::closed::<1>(alpha)` is the Berry distribution. A larger `G` does not compile.
     ///
-    /// It keeps no components: visible normals of γ = 1 make them for each sample, in 0.5 µs. Who draws many and does not
-    /// mind 0.8 kB takes `Gtr::isotropic(alpha, 1.0)`.
+    /// It keeps no components: visible normals of γ = 1 make them for each sample, in 0.5 µs. Who
+    /// draws many and does not mind 0.8 kB takes `Gtr::isotropic(alpha, 1.0)`.
     ///
     /// # Errors
     /// [`Error::Alpha`] or [`Error::AlphaAboveOne`] unless 0 < α ≤ 1.

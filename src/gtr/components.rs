@@ -1,8 +1,9 @@
 //! GTR of any exponent as many components, so many that their density is that of GTR to rounding.
 //!
-//! The points of the trapezoid rule of `measure.rs` as weighted distributions of width √t. Unlike the few
-//! [`nodes`](super::nodes) of a mask they stand for the density itself, at every angle: visible normals are drawn
-//! from them, and whatever is linear in the density of slopes (a filter, a lookup) can be had of them.
+//! The points of the trapezoid rule of `measure.rs` as weighted distributions of width √t. Unlike
+//! the few [`nodes`](super::nodes) of a mask they stand for the density itself, at every angle:
+//! visible normals are drawn from them, and whatever is linear in the density of slopes (a filter,
+//! a lookup) can be had of them.
 
 use crate::Real;
 use crate::error::Error;
@@ -19,14 +20,15 @@ pub const MOST_COMPONENTS: usize = 48;
 /// δ of the ends, and no step finer than is of use: e^{−2π²/½} is 7e-18.
 const RESOLUTION: Resolution = Resolution { end: 1e-8, step: 0.5, points: MOST_COMPONENTS };
 
-/// GTR of exponent γ ∈ [0, 10] and width α as a mixture of GTR of one integer exponent and of widths between α and 1.
+/// GTR of exponent γ ∈ [0, 10] and width α as a mixture of GTR of one integer exponent and of
+/// widths between α and 1.
 ///
 /// For γ ≤ 2 the components are GGX. Weights are positive and sum to 1.
 ///
 /// # Accuracy
-/// The density of the mixture is that of GTR to a relative error, the worst over all angles and γ, of 8.3e-7 for
-/// α ≥ 0.001 (γ = 1), 1.5e-7 for α ≥ 0.01, 9e-8 for α ≥ 0.1 (γ → 10), growing to 3e-5 at α = 1e-6
-/// (`tests/it/accuracy/nodes.rs`): below the rounding of f32 but for the narrowest.
+/// The density of the mixture is that of GTR to a relative error, the worst over all angles and γ,
+/// of 8.3e-7 for α ≥ 0.001 (γ = 1), 1.5e-7 for α ≥ 0.01, 9e-8 for α ≥ 0.1 (γ → 10), growing to 3e-5
+/// at α = 1e-6 (`tests/it/accuracy/nodes.rs`): below the rounding of f32 but for the narrowest.
 ///
 /// # Example
 /// ```
@@ -64,7 +66,8 @@ impl<T: Real> Components<T> {
     /// The components of GTR.
     ///
     /// # Errors
-    /// [`Error::Alpha`] or [`Error::AlphaAboveOne`] unless 0 < α ≤ 1, [`Error::Gamma`] unless 0 ≤ γ ≤ 10.
+    /// [`Error::Alpha`] or [`Error::AlphaAboveOne`] unless 0 < α ≤ 1, [`Error::Gamma`] unless 0 ≤ γ
+    /// ≤ 10.
     pub fn new(alpha: T, gamma: T) -> Result<Self, Error> {
         Ok(Self::of(width(alpha)?.to_f64(), covered(gamma)?))
     }
@@ -98,8 +101,9 @@ impl<T: Real> Components<T> {
 
     /// A normal visible from `v`, of the mixture itself (map I), of any length.
     ///
-    /// u.y chooses a component by its share of what is seen, from narrow to wide, and is stretched to [0, 1) for the
-    /// choice within it: two numbers suffice, and neighbours stay neighbours but for the borders between components.
+    /// u.y chooses a component by its share of what is seen, from narrow to wide, and is stretched
+    /// to [0, 1) for the choice within it: two numbers suffice, and neighbours stay neighbours but
+    /// for the borders between components.
     #[inline]
     pub(super) fn sample_visible(&self, v: [T; 3], [u1, u2]: [T; 2]) -> [T; 3] {
         let s2 = v[0] * v[0] + v[1] * v[1];
@@ -193,10 +197,11 @@ fn total<T: Real>(terms: &[T]) -> T {
     terms.iter().fold(T::ZERO, |sum, &term| sum + term)
 }
 
-/// The term that u falls on, as a share of their [`total`], and how far it falls into it, in [0, 1).
+/// The term that u falls on, as a share of their [`total`], and how far it falls into it, in [0,
+/// 1).
 ///
-/// Terms that are lost in the rounding of the sum are not chosen, and u below ε/4 counts as ε/4: a component
-/// of no account would give normals of no density.
+/// Terms that are lost in the rounding of the sum are not chosen, and u below ε/4 counts as ε/4: a
+/// component of no account would give normals of no density.
 #[inline(always)]
 fn pick<T: Real>(terms: &[T], total: T, u: T) -> (usize, T) {
     let least = T::lit(0.25) * T::EPSILON;

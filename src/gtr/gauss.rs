@@ -1,14 +1,18 @@
-//! Gauss quadrature for a discrete measure: the fewest points that integrate as many polynomials as possible.
+//! Gauss quadrature for a discrete measure: the fewest points that integrate as many polynomials as
+//! possible.
 //!
-//! The three-term recurrence of the polynomials orthogonal to the measure is found by the Stieltjes procedure, and its
-//! Jacobi matrix diagonalised by the implicit QL algorithm (Golub and Welsch 1969, "Calculation of Gauss quadrature
-//! rules"; Gautschi 2004, "Orthogonal Polynomials", §2.2 and §3.1).
+//! The three-term recurrence of the polynomials orthogonal to the measure is found by the Stieltjes
+//! procedure, and its Jacobi matrix diagonalised by the implicit QL algorithm (Golub and Welsch
+//! 1969, "Calculation of Gauss quadrature rules"; Gautschi 2004, "Orthogonal Polynomials", §2.2 and
+//! §3.1).
 
 use crate::Real;
 
-/// The abscissae, ascending, and weights, which sum to 1, of the `N`-point rule of the measure that has `weights` at `x`.
+/// The abscissae, ascending, and weights, which sum to 1, of the `N`-point rule of the measure that
+/// has `weights` at `x`.
 ///
-/// A measure of fewer than `N` points, to rounding, has that many points in the rule; the others have no weight.
+/// A measure of fewer than `N` points, to rounding, has that many points in the rule; the others
+/// have no weight.
 pub(super) fn gauss<const N: usize>(x: &[f64], weights: &[f64]) -> ([f64; N], [f64; N]) {
     let (diagonal, off_diagonal) = recurrence::<N>(x, weights);
     eigenvalues(diagonal, off_diagonal)
@@ -50,7 +54,8 @@ fn recurrence<const N: usize>(x: &[f64], weights: &[f64]) -> ([f64; N], [f64; N]
     (diagonal, off_diagonal)
 }
 
-/// The eigenvalues of a symmetric tridiagonal matrix and the squares of the first components of its eigenvectors.
+/// The eigenvalues of a symmetric tridiagonal matrix and the squares of the first components of its
+/// eigenvectors.
 fn eigenvalues<const N: usize>(mut d: [f64; N], mut e: [f64; N]) -> ([f64; N], [f64; N]) {
     /// Far more than QL takes; with as many the matrix is diagonal to rounding.
     const MOST_SWEEPS: usize = 60;

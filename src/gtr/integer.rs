@@ -1,15 +1,16 @@
 //! GTR of an integer exponent γ = n + 2 as a mixture of Student-t profiles.
 //!
-//! (r² + 1)ⁿ/(r² + t)^{n+2} = Σₖ C(n,k) (1−t)ᵏ/(r² + t)^{k+2}: the component k is the Student-t profile
-//! (b−1) t^{b−1}/(π (r² + t)^b) of exponent b = k + 2, with a weight proportional to C(n,k)/(k+1) (1−t)ᵏ t^{n−k}.
+//! (r² + 1)ⁿ/(r² + t)^{n+2} = Σₖ C(n,k) (1−t)ᵏ/(r² + t)^{k+2}: the component k is the Student-t
+//! profile (b−1) t^{b−1}/(π (r² + t)^b) of exponent b = k + 2, with a weight proportional to
+//! C(n,k)/(k+1) (1−t)ᵏ t^{n−k}.
 //!
-//! With r = √(z² + t s²), c = z/r, ρ = t s²/r² = 1 − c² and aᵢ = |C(½, i)|, the facets of a component that look away
-//! have the area
+//! With r = √(z² + t s²), c = z/r, ρ = t s²/r² = 1 − c² and aᵢ = |C(½, i)|, the facets of a
+//! component that look away have the area
 //!
 //! z Λₖ = ½ r Tₖ,  Tₖ = Σ_{i>k} aᵢ ρⁱ = 1 − Σ_{1≤i≤k} aᵢ ρⁱ − c,
 //!
-//! because Σₖ z Λₖ yᵏ is t s²/(2 (z + √(z² + t (1−y) s²))), GGX of a width that varies with y. Tₖ is (1−c)^{k+1} times
-//! a polynomial in c of positive coefficients, and the whole mixture is
+//! because Σₖ z Λₖ yᵏ is t s²/(2 (z + √(z² + t (1−y) s²))), GGX of a width that varies with y. Tₖ
+//! is (1−c)^{k+1} times a polynomial in c of positive coefficients, and the whole mixture is
 //!
 //! z Λ = ½ r (Tₙ + Σ_{1≤i≤n} aᵢ Vᵢ ρⁱ),  Vᵢ = Σ_{k<i} wₖ,
 //!
@@ -67,8 +68,8 @@ const fn remainders() -> [[f64; LARGEST_DEGREE]; LARGEST_DEGREE + 1] {
     rows
 }
 
-/// `x`, or 0 where it is negative, as interpolation may leave a weight, or so small that it only makes products denormal,
-/// which take a microcode assist each.
+/// `x`, or 0 where it is negative, as interpolation may leave a weight, or so small that it only
+/// makes products denormal, which take a microcode assist each.
 #[inline(always)]
 pub(super) fn flushed<T: Real>(x: T) -> T {
     if x < T::MIN_POSITIVE / (T::EPSILON * T::EPSILON) { T::ZERO } else { x }
@@ -180,8 +181,8 @@ impl<T: Real> Seen<T> {
         self.r * (self.remainder(n) + sum)
     }
 
-    /// The same of one component of many, without what is of no account beside the others and would only make products
-    /// denormal, each of which takes a microcode assist.
+    /// The same of one component of many, without what is of no account beside the others and would
+    /// only make products denormal, each of which takes a microcode assist.
     #[inline(always)]
     pub(super) fn twice_backfacing_of_many(&self, n: usize, series: impl Fn(usize) -> T) -> T {
         let mut sum = T::ZERO;

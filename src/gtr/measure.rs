@@ -1,16 +1,20 @@
-//! GTR of any exponent as a mixture, over the squared width t ∈ [α², 1], of GTR of an integer exponent.
+//! GTR of any exponent as a mixture, over the squared width t ∈ [α², 1], of GTR of an integer
+//! exponent.
 //!
 //! With n = max(0, ⌈γ⌉ − 2), p = n + 2 − γ and q = γ,
 //!
-//! (x + 1)^{γ−2}/(x + α²)^γ ∝ ∫ (t − α²)^{p−1} (1 − t)^{q−1} (x + 1)ⁿ/(x + t)^{n+2} dt  over t ∈ [α², 1],
+//! (x + 1)^{γ−2}/(x + α²)^γ ∝ ∫ (t − α²)^{p−1} (1 − t)^{q−1} (x + 1)ⁿ/(x + t)^{n+2} dt over t ∈
+//! [α², 1],
 //!
-//! a Beta integral: a positive mixture of GTR of exponent n + 2 and width √t. For γ ≤ 2 that is GGX. As projected areas
-//! are linear in the density of slopes, the mask is the same mixture of masks.
+//! a Beta integral: a positive mixture of GTR of exponent n + 2 and width √t. For γ ≤ 2 that is
+//! GGX. As projected areas are linear in the density of slopes, the mask is the same mixture of
+//! masks.
 //!
-//! With t = (α² + y)/(1 + y), y = eˢ, the weight of a normalised component over s is y^p (1 + y)^{−n−2} Kₙ(t),
-//! Kₙ = Σᵢ t^{−i−1}, i = 0 … n, which is (n + 1) ∫ (x + 1)ⁿ/(x + t)^{n+2} dx over x ≥ 0. It is analytic for |Im s| < π and
-//! falls off exponentially at both ends, so that the trapezoid rule of step h has an error of about e^{−2π²/h}.
-//! Where all t equal an end to a relative δ, the remaining sum is geometric and is taken whole.
+//! With t = (α² + y)/(1 + y), y = eˢ, the weight of a normalised component over s is y^p (1 +
+//! y)^{−n−2} Kₙ(t), Kₙ = Σᵢ t^{−i−1}, i = 0 … n, which is (n + 1) ∫ (x + 1)ⁿ/(x + t)^{n+2} dx over
+//! x ≥ 0. It is analytic for |Im s| < π and falls off exponentially at both ends, so that the
+//! trapezoid rule of step h has an error of about e^{−2π²/h}. Where all t equal an end to a
+//! relative δ, the remaining sum is geometric and is taken whole.
 
 use crate::Real;
 use crate::error::Error;

@@ -1,7 +1,8 @@
 //! GTR of any exponent as a mixture of distributions whose masks and visible normals are known.
 //!
 //! The mask is that of a few [`nodes`](super::nodes), visible normals are drawn from many
-//! [`components`](super::components), and D is GTR's own formula: each is the mixture to the accuracy its use needs.
+//! [`components`](super::components), and D is GTR's own formula: each is the mixture to the
+//! accuracy its use needs.
 
 use crate::Real;
 use crate::alpha::checked;
@@ -73,10 +74,12 @@ impl<T: Real, const N: usize> VisibleMasking<T> for Mixture<T, N> {
 }
 
 impl<T: Real> Gtr<T, Mixture<T, 8>> {
-    /// GTR of any exponent 0 ≤ γ ≤ 10: exact density, a mask within 1e-5 of the exact one, and exact visible normals.
+    /// GTR of any exponent 0 ≤ γ ≤ 10: exact density, a mask within 1e-5 of the exact one, and
+    /// exact visible normals.
     ///
-    /// Made in about 8 µs, for a material, not for every hit: see [`GtrTable`](super::table::GtrTable) for textures. For
-    /// the integers [`Gtr::closed`] is smaller and exact to rounding.
+    /// Made in about 8 µs, for a material, not for every hit: see
+    /// [`GtrTable`](super::table::GtrTable) for textures. For the integers [`Gtr::closed`] is
+    /// smaller and exact to rounding.
     ///
     /// # Errors
     /// [`Error::Alpha`] or [`Error::AlphaAboveOne`] unless 0 < α ≤ 1.
@@ -104,13 +107,14 @@ impl<T: Real> Gtr<T, Mixture<T, 8>> {
         Self::surface(alpha, gamma)
     }
 
-    /// GTR of widths αx along x and αy along y: the isotropic one of width √(αx αy), stretched to them.
+    /// GTR of widths αx along x and αy along y: the isotropic one of width √(αx αy), stretched to
+    /// them.
     ///
     /// At γ = 2 it is [`Ggx::anisotropic`](crate::Ggx::anisotropic).
     ///
     /// # Errors
-    /// [`Error::Alpha`] for either α, [`Error::AlphaAboveOne`] unless αx αy ≤ 1, [`Error::Gamma`] unless
-    /// 0 ≤ γ ≤ 10, and as [`isotropic`](Self::isotropic).
+    /// [`Error::Alpha`] for either α, [`Error::AlphaAboveOne`] unless αx αy ≤ 1, [`Error::Gamma`]
+    /// unless 0 ≤ γ ≤ 10, and as [`isotropic`](Self::isotropic).
     ///
     /// # Example
     /// ```

@@ -1,12 +1,12 @@
 //! The mask of GTR for any exponent, as a mixture of few exact masks.
 //!
 //! The measure over t of `measure.rs` is replaced by a Gauss rule in ln t, made once per material:
-//! [`GgxNodes`] for γ ≤ 2, whose components are GGX, and [`Nodes`] for every γ. Either is again the mask of a
-//! microsurface, whose density is near that of GTR.
+//! [`GgxNodes`] for γ ≤ 2, whose components are GGX, and [`Nodes`] for every γ. Either is again the
+//! mask of a microsurface, whose density is near that of GTR.
 //!
 //! # Accuracy
-//! max |ΔG1| over all directions and γ ∈ [0, 10], attained at γ ≈ 1.2 and just above the integers from 2 on, near the
-//! horizon, at the smallest α (`tests/it/accuracy/nodes.rs`):
+//! max |ΔG1| over all directions and γ ∈ [0, 10], attained at γ ≈ 1.2 and just above the integers
+//! from 2 on, near the horizon, at the smallest α (`tests/it/accuracy/nodes.rs`):
 //!
 //! | nodes | α ≥ 0.001 | α ≥ 0.01 | α ≥ 0.1 | α ≥ 0.5 |
 //! |---|---|---|---|---|
@@ -30,7 +30,8 @@
 //! [`Components`](super::components::Components) have 6 of them for every γ. Samples have the
 //! density of D all the same.
 //!
-//! The Gauss rule is in ln t because widths spread over decades: in t itself 8 nodes are off by 0.2 at α = 0.001.
+//! The Gauss rule is in ln t because widths spread over decades: in t itself 8 nodes are off by 0.2
+//! at α = 0.001.
 
 use crate::Real;
 use crate::elementary::inverse_root;
@@ -44,7 +45,8 @@ use crate::microsurface::Microsurface;
 use crate::ndf::staged::Forms;
 use crate::real::construction::{exp, ln};
 
-/// The trapezoid rule the Gauss rule is made from: better than 1e-13 for α ≥ 1e-3, where the points suffice for the step.
+/// The trapezoid rule the Gauss rule is made from: better than 1e-13 for α ≥ 1e-3, where the points
+/// suffice for the step.
 const RESOLUTION: Resolution = Resolution { end: 1e-12, step: 0.5, points: MOST_POINTS };
 
 /// The mask of GTR for γ ≤ 2 as a mixture of `N` masks of GGX: one square root a node.
@@ -240,10 +242,12 @@ impl<T: Real, const N: usize> VisibleMasking<T> for GgxNodes<T, N> {}
 impl<T: Real, const N: usize> VisibleMasking<T> for Nodes<T, N> {}
 
 impl<T: Real> Gtr<T, ()> {
-    /// GTR of γ ≤ 2 with a mask of `N` nodes and nothing else: the least memory, and the fastest loops.
+    /// GTR of γ ≤ 2 with a mask of `N` nodes and nothing else: the least memory, and the fastest
+    /// loops.
     ///
     /// # Errors
-    /// [`Error::Alpha`] or [`Error::AlphaAboveOne`] unless 0 < α ≤ 1, [`Error::Gamma`] unless 0 ≤ γ ≤ 2.
+    /// [`Error::Alpha`] or [`Error::AlphaAboveOne`] unless 0 < α ≤ 1, [`Error::Gamma`] unless 0 ≤ γ
+    /// ≤ 2.
     ///
     /// # Example
     /// ```

@@ -1,16 +1,19 @@
-//! The papers' mask of GTR for real γ: a natural cubic spline through the exact masks of γ = 0, 1, 2, 3, 4.
+//! The papers' mask of GTR for real γ: a natural cubic spline through the exact masks of γ = 0, 1,
+//! 2, 3, 4.
 //!
-//! With the masks Sₖ(μ) as values at the equidistant knots k, a natural spline is a linear combination
-//! G1 = Σₖ wₖ(γ) Sₖ(μ) whose weights depend on γ alone: they are computed when the surface is built.
+//! With the masks Sₖ(μ) as values at the equidistant knots k, a natural spline is a linear
+//! combination G1 = Σₖ wₖ(γ) Sₖ(μ) whose weights depend on γ alone: they are computed when the
+//! surface is built.
 //!
 //! # Accuracy
-//! max |ΔG1| against the exact mask over γ ∈ [0, 4] and all angles: 0.336 at α = 0.001, 0.170 at 0.01, 0.059 at 0.05,
-//! 0.029 at 0.1, 0.012 at 0.2, 0.003 at 0.4, 1.6e-4 at 0.8, at γ ≈ 1.4 for small α and 0.4 for large; exact at the knots.
-//! As a maximum, the 0.1 % that Dimov reports as a mean is reached between α = 0.4 and 0.8.
+//! max |ΔG1| against the exact mask over γ ∈ [0, 4] and all angles: 0.336 at α = 0.001, 0.170 at
+//! 0.01, 0.059 at 0.05, 0.029 at 0.1, 0.012 at 0.2, 0.003 at 0.4, 1.6e-4 at 0.8, at γ ≈ 1.4 for
+//! small α and 0.4 for large; exact at the knots. As a maximum, the 0.1 % that Dimov reports as a
+//! mean is reached between α = 0.4 and 0.8.
 //!
-//! The spline overshoots: at α = 0.01 it ranges from −0.035 to 1.059, at 0.001 from −0.099 to 1.092. [`Spline::g1`]
-//! returns it as it is; the surface limits it to [S₀, 1], the range of all GTR masks, so that no radiance is negative
-//! and σ ≥ z.
+//! The spline overshoots: at α = 0.01 it ranges from −0.035 to 1.059, at 0.001 from −0.099 to
+//! 1.092. [`Spline::g1`] returns it as it is; the surface limits it to [S₀, 1], the range of all
+//! GTR masks, so that no radiance is negative and σ ≥ z.
 //!
 //! References: Dimov 2015, §5; Atanasov, Koylazov, Dimov and Wilkie 2022, Appendix A.
 
@@ -33,8 +36,8 @@ pub struct Spline<T> {
     gamma4: Closed<T, 4>,
 }
 
-/// The second derivatives m₁, m₂, m₃ of a natural spline (m₀ = m₄ = 0) solve tridiag(1, 4, 1) m = 6 Δ²S; this is the
-/// inverse of that matrix, times 56.
+/// The second derivatives m₁, m₂, m₃ of a natural spline (m₀ = m₄ = 0) solve tridiag(1, 4, 1) m = 6
+/// Δ²S; this is the inverse of that matrix, times 56.
 const INVERSE: [[f64; 3]; 3] = [[15.0, -4.0, 1.0], [-4.0, 16.0, -4.0], [1.0, -4.0, 15.0]];
 
 /// The second derivative at `knot` of the spline that is 1 at the knot `k` and 0 at the others.
@@ -70,7 +73,8 @@ fn weights(gamma: f64) -> [f64; 5] {
 }
 
 impl<T: Real> Spline<T> {
-    /// The spline's G1(μ) as the papers have it, at a direction of cosine z > 0 and s² = |M⁻¹ w_xy|².
+    /// The spline's G1(μ) as the papers have it, at a direction of cosine z > 0 and s² = |M⁻¹
+    /// w_xy|².
     ///
     /// # Returns
     /// May leave [0, 1]: see the [module](self).
@@ -130,7 +134,8 @@ impl<T: Real> Gtr<T, Spline<T>> {
     /// GTR with the interpolated mask of the papers, 0 ≤ γ ≤ 4.
     ///
     /// # Errors
-    /// [`Error::Alpha`] or [`Error::AlphaAboveOne`] unless 0 < α ≤ 1, [`Error::Gamma`] unless 0 ≤ γ ≤ 4.
+    /// [`Error::Alpha`] or [`Error::AlphaAboveOne`] unless 0 < α ≤ 1, [`Error::Gamma`] unless 0 ≤ γ
+    /// ≤ 4.
     ///
     /// # Example
     /// ```

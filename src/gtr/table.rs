@@ -1,8 +1,8 @@
 //! GTR of a width that differs at every point of a surface.
 //!
-//! A Gauss rule takes microseconds, as long as hundreds of evaluations, and a textured α would pay for it at every hit.
-//! For one γ the nodes and weights are smooth functions of ln α: [`GtrTable`] holds them at 80 equidistant knots and
-//! interpolates by cubics.
+//! A Gauss rule takes microseconds, as long as hundreds of evaluations, and a textured α would pay
+//! for it at every hit. For one γ the nodes and weights are smooth functions of ln α: [`GtrTable`]
+//! holds them at 80 equidistant knots and interpolates by cubics.
 //!
 //! # Accuracy
 //! The largest |ΔG1| of 8 nodes found, tables from α = 0.001 to 1: 8e-6 for γ ≤ 2, 1.2e-5 for γ ≤ 4
@@ -27,9 +27,9 @@ type Surface<T, K> = Microsurface<Gtr<T, K>, Isotropic<T>>;
 
 /// GTR of one γ for many α, with masks of `N` nodes.
 ///
-/// A table of 8 nodes takes 5 kB (f32) or 10 kB (f64) and half a millisecond to make; a surface from it about as long as a
-/// logarithm and an exponential. Visible normals are those of the exact density, drawn from components that are
-/// made for each sample.
+/// A table of 8 nodes takes 5 kB (f32) or 10 kB (f64) and half a millisecond to make; a surface
+/// from it about as long as a logarithm and an exponential. Visible normals are those of the exact
+/// density, drawn from components that are made for each sample.
 ///
 /// # Example
 /// ```

@@ -2,48 +2,58 @@
 //!
 //! # The densities
 //!
-//! The profile is P22(r²) = (k + 1)/(π(1 + r²)^(k+2)), D(m) = (k + 1)/π·m.z^(2k); k = 0 is GGX. Normals seen from v have
-//! the density max(0, v·m)·m.z^(2k). In the plane of v and the vertical let e be the angle of v from straight *down*,
-//! and write a normal as an angle η out of that plane and an angle d in it, from the edge of visibility:
+//! The profile is P22(r²) = (k + 1)/(π(1 + r²)^(k+2)), D(m) = (k + 1)/π·m.z^(2k); k = 0 is GGX.
+//! Normals seen from v have the density max(0, v·m)·m.z^(2k). In the plane of v and the vertical
+//! let e be the angle of v from straight *down*, and write a normal as an angle η out of that plane
+//! and an angle d in it, from the edge of visibility:
 //!
 //! v·m = cos η·sin d,  m.z = cos η·sin y,  y = e − d,  dm = cos η·dη·dd.
 //!
-//! So the density is a product: cos^(2k+2) η, which does not depend on v, times sin d·sin^(2k) y on 0 < d < e. Both
-//! integrals are elementary; [`aside`] inverts that of η.
+//! So the density is a product: cos^(2k+2) η, which does not depend on v, times sin d·sin^(2k) y on
+//! 0 < d < e. Both integrals are elementary; [`aside`] inverts that of η.
 //!
 //! # The integrals of d
 //!
-//! Let G be the integral from y = 0 up to y, C that from d = 0 up to d, C + G = G(e). With ξ = tan(y/2), for y ≤ ½π,
+//! Let G be the integral from y = 0 up to y, C that from d = 0 up to d, C + G = G(e). With ξ =
+//! tan(y/2), for y ≤ ½π,
 //!
-//! G = sin^(2k) y·K(y, e),  K = sin y·(sin e/(2k + 1) − cos e·ξ·Σᵢ βᵢ ξ²ⁱ),  βᵢ = k!²/((k + 1 + i)!·(k − i)!), i ≤ k,
+//! G = sin^(2k) y·K(y, e), K = sin y·(sin e/(2k + 1) − cos e·ξ·Σᵢ βᵢ ξ²ⁱ), βᵢ = k!²/((k + 1 +
+//! i)!·(k − i)!), i ≤ k,
 //!
-//! a sum of positive terms for v above the horizon. Below it two terms nearly cancel, and with sin e = sin(y + d)
+//! a sum of positive terms for v above the horizon. Below it two terms nearly cancel, and with sin
+//! e = sin(y + d)
 //!
-//! K = tan y·(sin d/(2k + 1) + ½ cos e·sin y·Σᵢ κᵢ ξ²ⁱ),  κ₀ = 1/((k + 1)(2k + 1)), κᵢ = βᵢ₋₁ − βᵢ, β_{k+1} = 0,
+//! K = tan y·(sin d/(2k + 1) + ½ cos e·sin y·Σᵢ κᵢ ξ²ⁱ), κ₀ = 1/((k + 1)(2k + 1)), κᵢ = βᵢ₋₁ − βᵢ,
+//! β_{k+1} = 0,
 //!
-//! has none that are negative. Beyond y = ½π, seen from the other side, y stands for π − y and sin e for −sin e, and the
-//! difference of two such values is C. Below the horizon everything is divided by sin^(2k) e, so that nothing underflows.
+//! has none that are negative. Beyond y = ½π, seen from the other side, y stands for π − y and sin
+//! e for −sin e, and the difference of two such values is C. Below the horizon everything is
+//! divided by sin^(2k) e, so that nothing underflows.
 //!
 //! # The step
 //!
-//! V = 1 − cos d as a function of λ = ln(C/G) is as V ∝ C^κ, 1/(k + 1) ≤ κ ≤ 1, at the edge of visibility, and
-//! approaches its end like G^κ. So its Taylor series serves everywhere. With φ = C/(C + G), γ = 1 − φ,
+//! V = 1 − cos d as a function of λ = ln(C/G) is as V ∝ C^κ, 1/(k + 1) ≤ κ ≤ 1, at the edge of
+//! visibility, and approaches its end like G^κ. So its Taylor series serves everywhere. With φ =
+//! C/(C + G), γ = 1 − φ,
 //!
-//! τ = d′ = CG/(G(e)·sin d·sin^(2k) y), X = τ·cot y, ρ = τ·cot d, r = γ − φ + 2kX:
-//! V′ = τ·sin d, V″ = rV′, τ′ = τ(r − ρ), X′ = X(r − ρ) + X² + τ², ρ′ = ρ(r − ρ) − ρ² − τ², φ′ = φγ,
+//! τ = d′ = CG/(G(e)·sin d·sin^(2k) y), X = τ·cot y, ρ = τ·cot d, r = γ − φ + 2kX: V′ = τ·sin d,
+//! V″ = rV′, τ′ = τ(r − ρ), X′ = X(r − ρ) + X² + τ², ρ′ = ρ(r − ρ) − ρ² − τ², φ′ = φγ,
 //!
-//! all algebraic. Four terms are used; the difference of λ is 2 artanh of (C − uG(e))/(C(1 − u) + G·u). Two steps are
-//! enough: the guess is off by at most 2.5 in λ, at p = 1 − u = 10⁻¹³, and by 1.6 where p is above 10⁻⁷; the
-//! fifth power of what is left counts.
+//! all algebraic. Four terms are used; the difference of λ is 2 artanh of (C − uG(e))/(C(1 − u) +
+//! G·u). Two steps are enough: the guess is off by at most 2.5 in λ, at p = 1 − u = 10⁻¹³, and by
+//! 1.6 where p is above 10⁻⁷; the fifth power of what is left counts.
 //!
 //! # The guess
 //!
-//! - Below the horizon ϑ² = 1 − p^(1/(2k+1)) and V/V(e) = q², q = ϑ(c + (1 − c)ϑ), where c makes the edge of visibility
-//!   right. This is exact for a horizontal v; as v sinks, G → sin^(2k+1) y·(1 − y/e·(2k + 1)/(2k + 2)) in proportion.
-//! - Above it, G(½π) = sin e/(2k + 1) + |cos e|·Q is the sum of two terms that grow about as the powers 2k + 1 and 2k + 2 of Y,
-//!   where Y² ∝ h(1 − νh), h = sin² ½y, has the right values at both ends of y ≤ ½π. An intermediate power inverts it.
-//! - Beyond that y, C ∝ Y^(2k+2) for a vertical v, and otherwise V becomes smaller by the factor F^(−2k), where F, a
-//!   hyperbola, goes from its tangent at 1 to the asymptote t that gives the edge of visibility: C = V·sin^(2k) e.
+//! - Below the horizon ϑ² = 1 − p^(1/(2k+1)) and V/V(e) = q², q = ϑ(c + (1 − c)ϑ), where c makes
+//!   the edge of visibility right. This is exact for a horizontal v; as v sinks, G → sin^(2k+1)
+//!   y·(1 − y/e·(2k + 1)/(2k + 2)) in proportion.
+//! - Above it, G(½π) = sin e/(2k + 1) + |cos e|·Q is the sum of two terms that grow about as the
+//!   powers 2k + 1 and 2k + 2 of Y, where Y² ∝ h(1 − νh), h = sin² ½y, has the right values at both
+//!   ends of y ≤ ½π. An intermediate power inverts it.
+//! - Beyond that y, C ∝ Y^(2k+2) for a vertical v, and otherwise V becomes smaller by the factor
+//!   F^(−2k), where F, a hyperbola, goes from its tangent at 1 to the asymptote t that gives the
+//!   edge of visibility: C = V·sin^(2k) e.
 
 mod aside;
 
@@ -101,8 +111,9 @@ const HALF_TOTAL: [f64; MAX] = {
     table
 };
 
-/// Of the guess, for k in the row k − 1, from tests/reference/gtr_visible_guess.py: ν = 2 − ((2k + 2)Q)^(1/(k+1)); Q^(1/2k); and of the hyperbola the slope at a
-/// vertical v, 2/((2k + 1)(k + 1)^(1/2k)).
+/// Of the guess, for k in the row k − 1, from tests/reference/gtr_visible_guess.py: ν = 2 − ((2k +
+/// 2)Q)^(1/(k+1)); Q^(1/2k); and of the hyperbola the slope at a vertical v, 2/((2k + 1)(k +
+/// 1)^(1/2k)).
 const GUESS: [[f64; 3]; MAX] = [
     [0.367007, 0.816497, 0.471405],
     [0.526387, 0.854574, 0.303934],
@@ -114,9 +125,11 @@ const GUESS: [[f64; 3]; MAX] = [
     [0.794124, 0.927424, 0.102551],
 ];
 
-/// sin e is taken no smaller: the products of a step, of the order of sin⁴e, and 2⁻⁵⁴ some times, stay normal.
+/// sin e is taken no smaller: the products of a step, of the order of sin⁴e, and 2⁻⁵⁴ some times,
+/// stay normal.
 const LOWEST: f64 = 7.888609052210118e-31; // 2⁻¹⁰⁰
-/// C and G are taken as no smaller a part of the whole than the u that are told from 0, by an eighth.
+/// C and G are taken as no smaller a part of the whole than the u that are told from 0, by an
+/// eighth.
 const FLOOR: f64 = 6.938893903907228e-18; // 2⁻⁵⁷
 /// Below this u, ln(1 − u) is −u(1 + ½u) to more digits than a guess needs, and 1 − u is not.
 const SMALL: f64 = 0.0001220703125; // 2⁻¹³
@@ -349,7 +362,8 @@ impl<W: Real> View<W> {
     }
 }
 
-/// u where it is told from 0 and 1: 0 is taken as ε/4, the middle of the first cell of random numbers.
+/// u where it is told from 0 and 1: 0 is taken as ε/4, the middle of the first cell of random
+/// numbers.
 #[inline(always)]
 fn inside<T: Real>(u: T) -> T {
     u.max(T::lit(0.25) * T::EPSILON).min(T::ONE - T::HALF * T::EPSILON)
@@ -357,20 +371,23 @@ fn inside<T: Real>(u: T) -> T {
 
 /// A normal, of any length, visible from `v`, with density max(0, v·m)·m.z^(2k) on m.z ≥ 0.
 ///
-/// `u[0]` turns the normal out of the plane of `v` and the vertical, increasing to the left of v's horizontal direction;
-/// `u[1]` turns it, in its projection to that plane, from the edge of visibility to the horizon of the normals.
+/// `u[0]` turns the normal out of the plane of `v` and the vertical, increasing to the left of v's
+/// horizontal direction; `u[1]` turns it, in its projection to that plane, from the edge of
+/// visibility to the horizon of the normals.
 ///
 /// # Domain
-/// 1 ≤ k ≤ 8; `v` of any length whose square neither overflows nor underflows, v ≠ 0, on the whole sphere; u in [0, 1),
-/// of which less than ε/4 is taken as ε/4, the middle of the first cell of random numbers.
+/// 1 ≤ k ≤ 8; `v` of any length whose square neither overflows nor underflows, v ≠ 0, on the whole
+/// sphere; u in [0, 1), of which less than ε/4 is taken as ε/4, the middle of the first cell of
+/// random numbers.
 ///
 /// # Returns
-/// Finite numbers, m.z ≥ 0, v·m ≥ 0 up to rounding. Straight down, where nothing is visible, m is horizontal.
+/// Finite numbers, m.z ≥ 0, v·m ≥ 0 up to rounding. Straight down, where nothing is visible, m is
+/// horizontal.
 ///
 /// # Accuracy
-/// As a difference of u: f64 5e-15 in the plane and 5e-16 out of it. f32 computes in f64: 2e-9, and monotone ulp by ulp.
-/// At the edge of visibility C is right to 4e-15/u relatively, and d to half of that; also below the horizon,
-/// where d is measured against e.
+/// As a difference of u: f64 5e-15 in the plane and 5e-16 out of it. f32 computes in f64: 2e-9, and
+/// monotone ulp by ulp. At the edge of visibility C is right to 4e-15/u relatively, and d to half
+/// of that; also below the horizon, where d is measured against e.
 #[inline(always)]
 pub(super) fn sample_visible<T: Real>(k: usize, v: [T; 3], u: [T; 2]) -> [T; 3] {
     let [x, y, z] = v.map(Real::widen);

@@ -5,8 +5,8 @@ use crate::alpha::alpha_range;
 use crate::elementary::exact::difference_of_products;
 use crate::error::Error;
 
-/// A symmetric positive definite matrix RᵀR with |det R|, the root of its determinant, known more precisely
-/// than from its entries.
+/// A symmetric positive definite matrix RᵀR with |det R|, the root of its determinant, known more
+/// precisely than from its entries.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Gram {
     pub(crate) xx: f64,
@@ -49,7 +49,8 @@ impl Gram {
             return true;
         }
         let [alpha_max, alpha_min] = self.principal();
-        // A relative slack of a few ε: an α at the very end of the range stays accepted after a rotation.
+        // A relative slack of a few ε: an α at the very end of the range stays accepted after a
+        // rotation.
         let slack = 1.0 + 8.0 * T::EPSILON.to_f64();
         alpha_max <= largest.to_f64() * slack && alpha_min * slack >= smallest.to_f64()
     }
@@ -57,8 +58,8 @@ impl Gram {
 
 /// Sums a RᵀR + b CᵀC of two Gram matrices of triangular factors.
 ///
-/// With adj(R) the adjugate, det = a² (det R)² + a b (|adj(R)ᵀc₁|² + |adj(R)ᵀc₂|²) + b² (det C)², c₁ and c₂ the rows of C:
-/// every term is positive.
+/// With adj(R) the adjugate, det = a² (det R)² + a b (|adj(R)ᵀc₁|² + |adj(R)ᵀc₂|²) + b² (det C)²,
+/// c₁ and c₂ the rows of C: every term is positive.
 #[derive(Clone, Copy)]
 pub(crate) struct Sums {
     /// xx, xy, yy.

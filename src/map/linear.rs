@@ -12,9 +12,10 @@ use crate::map::{Map, scale};
 /// Any invertible map, stored as the upper triangular R = M⁻¹ that has the same RᵀR.
 ///
 /// # Accuracy
-/// R is computed in f64 and rounded once; the surface of the rounded R is then as accurate as an axis-aligned one, but
-/// for the difference in Mᵀm: with κ the ratio of the principal α, D of a given matrix is relatively uncertain by
-/// about κ ε in the direction of the smaller α. Ratios of 1/ε and more (8e6 for f32) build, and are meaningless.
+/// R is computed in f64 and rounded once; the surface of the rounded R is then as accurate as an
+/// axis-aligned one, but for the difference in Mᵀm: with κ the ratio of the principal α, D of a
+/// given matrix is relatively uncertain by about κ ε in the direction of the smaller α. Ratios of
+/// 1/ε and more (8e6 for f32) build, and are meaningless.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Linear<T> {
     r11: T,
@@ -32,8 +33,8 @@ impl<T: Real> Linear<T> {
     /// The map whose inverse has the rows `r`: M = R⁻¹.
     ///
     /// # Errors
-    /// [`Error::Map`], with the determinant of M, unless R is finite and its singular values (the principal α)
-    /// are within [`alpha_range`](crate::roughness::alpha_range).
+    /// [`Error::Map`], with the determinant of M, unless R is finite and its singular values (the
+    /// principal α) are within [`alpha_range`](crate::roughness::alpha_range).
     pub fn from_inverse(r: [[T; 2]; 2]) -> Result<Self, Error> {
         let [[a, b], [c, d]] = r.map(|row| row.map(T::to_f64));
         let det = difference_of_products(a, d, b, c);

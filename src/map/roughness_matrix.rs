@@ -7,16 +7,18 @@ use crate::error::Error;
 use crate::map::gram::Gram;
 use crate::real::construction::{atan2, cos, sin};
 
-/// A symmetric positive definite 2×2 matrix A in units of α² (slope²): the roughness of a surface that need not
-/// be aligned with the axes.
+/// A symmetric positive definite 2×2 matrix A in units of α² (slope²): the roughness of a surface
+/// that need not be aligned with the axes.
 ///
-/// D = 1/(π √det A (wmᵀA⁻¹wm + wm.z²)²) for GGX; A is twice the covariance of the slopes of a Beckmann surface.
+/// D = 1/(π √det A (wmᵀA⁻¹wm + wm.z²)²) for GGX; A is twice the covariance of the slopes of a
+/// Beckmann surface.
 ///
 /// # Numerics
-/// The matrix is held as a triangular factor R, A = RᵀR, in units of α. Entries of A lose the smaller
-/// principal α where the ratio of both is κ: its relative error is κ² ε/2, all digits beyond κ = 2900
-/// in f32. The factor holds every ratio, with the direction of the axes to a rounding. So
-/// [`rotated`](Self::rotated) and [`Microsurface::roughness_matrix`](crate::Microsurface::roughness_matrix) never form α², and
+/// The matrix is held as a triangular factor R, A = RᵀR, in units of α. Entries of A lose the
+/// smaller principal α where the ratio of both is κ: its relative error is κ² ε/2, all digits
+/// beyond κ = 2900 in f32. The factor holds every ratio, with the direction of the axes to a
+/// rounding. So [`rotated`](Self::rotated) and
+/// [`Microsurface::roughness_matrix`](crate::Microsurface::roughness_matrix) never form α², and
 /// [`entries`](Self::entries) is the only way that does.
 ///
 /// # Example
@@ -32,7 +34,8 @@ use crate::real::construction::{atan2, cos, sin};
 /// ```
 ///
 /// # References
-/// Heitz 2014, §5.4; Kaplanyan, Hill, Patney and Lefohn 2016; Tokuyoshi and Kaplanyan 2019, supplement.
+/// Heitz 2014, §5.4; Kaplanyan, Hill, Patney and Lefohn 2016; Tokuyoshi and Kaplanyan 2019,
+/// supplement.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[doc(alias("anisotropy", "rotation"))]
 pub struct RoughnessMatrix<T> {
@@ -46,12 +49,14 @@ impl<T: Real> RoughnessMatrix<T> {
     /// The matrix [[xx, xy], [xy, yy]].
     ///
     /// # Errors
-    /// [`Error::RoughnessMatrix`] unless it is finite, positive definite (its determinant is computed without
-    /// cancellation) and both principal α are within [`alpha_range`](crate::roughness::alpha_range).
+    /// [`Error::RoughnessMatrix`] unless it is finite, positive definite (its determinant is
+    /// computed without cancellation) and both principal α are within
+    /// [`alpha_range`](crate::roughness::alpha_range).
     ///
     /// # Accuracy
-    /// The entries are taken as exact. Where they are roundings of a rotated pair of widths of the ratio
-    /// κ, the smaller width that they hold is off by κ² ε/2: take [`rotated`](Self::rotated) for those.
+    /// The entries are taken as exact. Where they are roundings of a rotated pair of widths of the
+    /// ratio κ, the smaller width that they hold is off by κ² ε/2: take [`rotated`](Self::rotated)
+    /// for those.
     #[inline]
     pub fn new(xx: T, xy: T, yy: T) -> Result<Self, Error> {
         let gram = Self::gram_of_entries([xx, xy, yy]);
@@ -75,10 +80,12 @@ impl<T: Real> RoughnessMatrix<T> {
         Self { r11, r12, r22 }
     }
 
-    /// The matrix RᵀR of any upper triangular R, with every bit of R kept but the signs of its rows.
+    /// The matrix RᵀR of any upper triangular R, with every bit of R kept but the signs of its
+    /// rows.
     ///
     /// # Errors
-    /// [`Error::RoughnessMatrix`] unless R is finite and both principal α are within [`alpha_range`](crate::roughness::alpha_range).
+    /// [`Error::RoughnessMatrix`] unless R is finite and both principal α are within
+    /// [`alpha_range`](crate::roughness::alpha_range).
     #[cfg(feature = "serde")]
     pub(crate) fn checked_factor([r11, r12, r22]: [T; 3]) -> Result<Self, Error> {
         let r12 = if r11 < T::ZERO { -r12 } else { r12 };
@@ -103,7 +110,8 @@ impl<T: Real> RoughnessMatrix<T> {
         Self::of_factor(gram.factor().map(T::lit))
     }
 
-    /// The matrix with α = `alpha_x` along the direction at `angle` radians from x, and `alpha_y` across it.
+    /// The matrix with α = `alpha_x` along the direction at `angle` radians from x, and `alpha_y`
+    /// across it.
     ///
     /// Any ratio of the two is held; see the [type](Self).
     ///
@@ -147,8 +155,8 @@ impl<T: Real> RoughnessMatrix<T> {
     /// The entries [xx, xy, yy] of A.
     ///
     /// # Accuracy
-    /// Each is rounded once. As a matrix they hold the smaller principal α to κ² ε/2, κ the ratio of
-    /// the larger to it: no digit from κ = 2900 on in f32, 7e7 in f64.
+    /// Each is rounded once. As a matrix they hold the smaller principal α to κ² ε/2, κ the ratio
+    /// of the larger to it: no digit from κ = 2900 on in f32, 7e7 in f64.
     #[inline]
     #[must_use]
     pub fn entries(&self) -> [T; 3] {
@@ -156,7 +164,8 @@ impl<T: Real> RoughnessMatrix<T> {
         [xx, xy, yy].map(T::lit)
     }
 
-    /// The larger and the smaller principal α, and the angle in (−π/2, π/2] of the direction of the larger.
+    /// The larger and the smaller principal α, and the angle in (−π/2, π/2] of the direction of the
+    /// larger.
     ///
     /// The angle is 0 for a multiple of the identity.
     #[must_use]

@@ -10,13 +10,13 @@ use crate::vector::{at_least_cosine, dot, normalized};
 
 /// Any distribution, moved by a 2×2 matrix of the tangent plane.
 ///
-/// Nothing is asked of the distribution but [`Ndf`], so it may be anisotropic, discrete, measured or a user's own. A
-/// [`Microsurface`](crate::Microsurface) is moved at no cost by its own
+/// Nothing is asked of the distribution but [`Ndf`], so it may be anisotropic, discrete, measured
+/// or a user's own. A [`Microsurface`](crate::Microsurface) is moved at no cost by its own
 /// [`transformed`](crate::Microsurface::transformed); this gives the same.
 ///
 /// # Domain
-/// Unit vectors; those of the distribution at rest are formed with a relative error of a few ε times the ratio of the
-/// singular values of the matrix.
+/// Unit vectors; those of the distribution at rest are formed with a relative error of a few ε
+/// times the ratio of the singular values of the matrix.
 ///
 /// # Special cases
 /// As those of the distribution at rest: heights keep their sign.
@@ -63,8 +63,8 @@ impl<N: Ndf> Transformed<N> {
     /// The distribution moved by `matrix`.
     ///
     /// # Errors
-    /// [`Error::Map`], with the determinant, unless the matrix is finite and its singular values are within
-    /// [`alpha_range`](crate::roughness::alpha_range).
+    /// [`Error::Map`], with the determinant, unless the matrix is finite and its singular values
+    /// are within [`alpha_range`](crate::roughness::alpha_range).
     pub fn new(ndf: N, matrix: <N::Scalar as Real>::Mat2) -> Result<Self, Error> {
         Self::of_columns(ndf, N::Scalar::columns(matrix).map(|column| column.map(N::Scalar::to_f64)))
     }
@@ -76,8 +76,8 @@ impl<N: Ndf> Transformed<N> {
         Ok(Self { ndf, matrix, inverse, area: N::Scalar::lit(det.abs()) })
     }
 
-    /// The same distribution moved once more: `t.transformed(b)?` is `Transformed::new(ndf, b * a)?` of a `t` that was
-    /// moved by `a`.
+    /// The same distribution moved once more: `t.transformed(b)?` is `Transformed::new(ndf, b *
+    /// a)?` of a `t` that was moved by `a`.
     ///
     /// # Errors
     /// As [`new`](Self::new), of the product.

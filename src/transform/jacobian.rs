@@ -3,7 +3,8 @@
 use crate::Real;
 use crate::vector::dot;
 
-/// The Jacobian ∂(u.x, u.y)/∂(m.x, m.y) of u = Mᵀm/|Mᵀm| over the disc of the first two components of unit normals.
+/// The Jacobian ∂(u.x, u.y)/∂(m.x, m.y) of u = Mᵀm/|Mᵀm| over the disc of the first two components
+/// of unit normals.
 ///
 /// Its determinant is det M/|Mᵀm|⁴, the factor of D_M.
 ///
@@ -27,12 +28,15 @@ pub fn jacobian_of_normals<T: Real>(matrix: T::Mat2, m: T::Vec3) -> T::Mat2 {
     T::matrix([column(a, c, -x), column(b, d, -y)])
 }
 
-/// The Jacobian of a map of texture coordinates at a point, by central differences: the M that it moves a microsurface by.
+/// The Jacobian of a map of texture coordinates at a point, by central differences: the M that it
+/// moves a microsurface by.
 ///
-/// `uv` are the coordinates at rest: on a surface that was moved already, those the map takes to the point.
+/// `uv` are the coordinates at rest: on a surface that was moved already, those the map takes to
+/// the point.
 ///
-/// `step` is half the distance between the points; the error is `step`²/6 times the third derivatives, plus the
-/// rounding of the map over `step`: ε^{1/3} times the size of the coordinates balances them.
+/// `step` is half the distance between the points; the error is `step`²/6 times the third
+/// derivatives, plus the rounding of the map over `step`: ε^{1/3} times the size of the coordinates
+/// balances them.
 ///
 /// # Example
 /// ```

@@ -1,11 +1,12 @@
 //! The tension of a deformed mesh: the matrix that each of its triangles moved the microsurface by.
 //!
-//! A triangle at rest and the same triangle deformed are laid into a plane each, along the direction of the texture
-//! coordinate u; T = D R⁻¹ takes the edges of the one to those of the other. [`Microsurface::transformed`] by T is what the
-//! deformation made of the microsurface: smoother where the object is stretched, rougher where it is compressed.
+//! A triangle at rest and the same triangle deformed are laid into a plane each, along the
+//! direction of the texture coordinate u; T = D R⁻¹ takes the edges of the one to those of the
+//! other. [`Microsurface::transformed`] by T is what the deformation made of the microsurface:
+//! smoother where the object is stretched, rougher where it is compressed.
 //!
-//! The shading frame that goes with T has the normal (p₁ − p₀) × (p₂ − p₀) of the deformed triangle as z and the
-//! direction of ∂p/∂u as x; [`Triangle::frame`] gives it.
+//! The shading frame that goes with T has the normal (p₁ − p₀) × (p₂ − p₀) of the deformed triangle
+//! as z and the direction of ∂p/∂u as x; [`Triangle::frame`] gives it.
 //!
 //! [`Microsurface::transformed`]: crate::Microsurface::transformed
 //!
@@ -84,8 +85,9 @@ impl<T: Real> Triangle<T> {
     /// T = D R⁻¹.
     ///
     /// # Errors
-    /// [`Error::Map`] with the determinant of T, 0 or NaN, where a triangle or its texture coordinates have no area, or
-    /// where T is out of the range that [`Microsurface::transformed`](crate::Microsurface::transformed) accepts.
+    /// [`Error::Map`] with the determinant of T, 0 or NaN, where a triangle or its texture
+    /// coordinates have no area, or where T is out of the range that
+    /// [`Microsurface::transformed`](crate::Microsurface::transformed) accepts.
     ///
     /// # Example
     /// ```
@@ -126,7 +128,8 @@ impl<T: Real> Triangle<T> {
     /// The shading frame of the deformed triangle that [`tension`](Self::tension) belongs to.
     ///
     /// # Errors
-    /// [`Error::Map`] with a determinant of 0 where the triangle or its texture coordinates have no area.
+    /// [`Error::Map`] with a determinant of 0 where the triangle or its texture coordinates have no
+    /// area.
     pub fn frame(&self) -> Result<Frame<T>, Error> {
         let axes = axes(edges::<T>(self.deformed), self.uv_edges()).ok_or(Error::Map { determinant: 0.0 })?;
         let [normal, tangent] = [axes.z, axes.x].map(|axis| axis.map(T::lit));
@@ -194,19 +197,22 @@ impl<T: Real> Mesh<'_, T> {
         Some(Triangle { rest: corners(self.rest)?, deformed: corners(self.deformed)?, uv })
     }
 
-    /// The mean tension at every vertex, weighted by the areas of its triangles at rest, added to `means`.
+    /// The mean tension at every vertex, weighted by the areas of its triangles at rest, added to
+    /// `means`.
     ///
-    /// The texture direction u, to which the matrices of neighbouring triangles refer, has to be continuous across their
-    /// edges: at a seam or a pole of the texture vertices are to be doubled, as they are for the coordinates themselves. The
-    /// frame that goes with interpolated means has the interpolated normal as z and the interpolated ∂p/∂u as x:
+    /// The texture direction u, to which the matrices of neighbouring triangles refer, has to be
+    /// continuous across their edges: at a seam or a pole of the texture vertices are to be
+    /// doubled, as they are for the coordinates themselves. The frame that goes with interpolated
+    /// means has the interpolated normal as z and the interpolated ∂p/∂u as x:
     /// [`Frame::from_normal_and_tangent`].
     ///
     /// # Returns
-    /// The number of triangles left out because they have no tension: vertices that have no other stay at rest.
+    /// The number of triangles left out because they have no tension: vertices that have no other
+    /// stay at rest.
     ///
     /// # Errors
-    /// [`Error::Mesh`] with the first triangle that names a vertex which one of the slices, or `means`, does not have;
-    /// then nothing is written.
+    /// [`Error::Mesh`] with the first triangle that names a vertex which one of the slices, or
+    /// `means`, does not have; then nothing is written.
     pub fn add_tension_of_vertices(&self, means: &mut [Mean<T>]) -> Result<usize, Error> {
         let known = self.rest.len().min(self.deformed.len()).min(self.uv.len()).min(means.len());
         if let Some(triangle) = self.triangles.iter().position(|corners| corners.iter().any(|&i| i >= known))

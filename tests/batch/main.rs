@@ -1,4 +1,5 @@
-//! Batches against the scalar calls, bit by bit, at every level of the instruction set that this machine has.
+//! Batches against the scalar calls, bit by bit, at every level of the instruction set that this
+//! machine has.
 //!
 //! A test binary of its own: every entry point is compiled for every level.
 #![expect(clippy::unwrap_used, reason = "a surface that cannot be built is a failed test")]
@@ -25,7 +26,8 @@ use microsurface::{Beckmann, Ggx, Gtr, Ndf, Real, RoughnessMatrix, SampleNdf, Sa
 /// One more than a block, and a few.
 const LONGEST: usize = 67;
 
-/// Directions, some below the horizon, on it and straight up, and some with a NaN; random numbers with 0 among them.
+/// Directions, some below the horizon, on it and straight up, and some with a NaN; random numbers
+/// with 0 among them.
 struct Arguments<T> {
     wi: [Vec<T>; 3],
     wo: [Vec<T>; 3],
@@ -37,8 +39,8 @@ impl<T: Real> Arguments<T> {
         Self::with(len, seed, true)
     }
 
-    /// Directions above the horizon, of which batches draw samples by what usually suffices, but for one in the second
-    /// block.
+    /// Directions above the horizon, of which batches draw samples by what usually suffices, but
+    /// for one in the second block.
     fn usual(len: usize, seed: u64) -> Self {
         Self::with(len, seed, false)
     }
@@ -237,7 +239,8 @@ where
     }
 }
 
-/// Profiles, maps, samplings and Fresnel terms; every loop is compiled three times, so that not all combinations are here.
+/// Profiles, maps, samplings and Fresnel terms; every loop is compiled three times, so that not all
+/// combinations are here.
 fn everything<T: Elementary>() {
     let l = T::lit;
     let matrix = |a| RoughnessMatrix::rotated(l(a), l(0.1), l(0.4)).unwrap();
@@ -330,8 +333,8 @@ fn spectra_of_three_and_borrowed_distributions() {
     same("vndf of a table", &densities, |i| table.vndf(direction(&a.wo, i), direction(&a.wi, i)));
 }
 
-/// Borrowed distributions and mixtures ask as the distributions themselves; of whatever type is only known at run time,
-/// every element is drawn by its own sampler.
+/// Borrowed distributions and mixtures ask as the distributions themselves; of whatever type is
+/// only known at run time, every element is drawn by its own sampler.
 #[test]
 fn slopes_of_borrowed_and_of_mixed_beckmann() {
     let surfaces = [0.3_f32, 0.01].map(|alpha| Beckmann::isotropic(alpha).unwrap());

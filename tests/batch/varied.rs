@@ -1,4 +1,5 @@
-//! Materials varied by numbers of each element, against scalar calls on the surface of each; functions of one's own.
+//! Materials varied by numbers of each element, against scalar calls on the surface of each;
+//! functions of one's own.
 
 use std::panic::catch_unwind;
 
@@ -124,7 +125,8 @@ fn numbers_that_make_no_surface_are_refused() {
     assert!(catch_unwind(|| RoughnessMatrices::new(&[0.2, 0.2], &[0.0], &[0.2, 0.2])).is_err());
 }
 
-/// Where a checked texture is refused a clamping one has the nearest width, and all others are as they were.
+/// Where a checked texture is refused a clamping one has the nearest width, and all others are as
+/// they were.
 #[test]
 fn clamped_numbers_make_a_surface_each() {
     let texels: Vec<f32> =

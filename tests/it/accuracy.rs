@@ -1,4 +1,5 @@
-//! Densities, areas, masks and Fresnel terms against the tables of 50-digit values in `tests/reference`.
+//! Densities, areas, masks and Fresnel terms against the tables of 50-digit values in
+//! `tests/reference`.
 //!
 //! The inputs of the tables are f32 numbers taken as they are, so no error of an input counts.
 
@@ -54,7 +55,8 @@ impl Worst {
         }
     }
 
-    /// A relative error, or for results below the normal numbers of the scalar an absolute one in their ulp.
+    /// A relative error, or for results below the normal numbers of the scalar an absolute one in
+    /// their ulp.
     fn add_relative<T: Real>(&mut self, value: T, exact: f64, input: &[&str]) {
         self.add(value, exact, exact.abs().max(T::MIN_POSITIVE.to_f64()), input);
     }
@@ -247,8 +249,8 @@ fn uniform(rng: &mut rand_pcg::Pcg64Mcg) -> f64 {
     f64::from(rng.next_u32() >> 8) / f64::from(1 << 24)
 }
 
-/// f32 against f64 on many random inputs, which the tables cannot have: the f64 values have been compared with
-/// the tables.
+/// f32 against f64 on many random inputs, which the tables cannot have: the f64 values have been
+/// compared with the tables.
 #[test]
 fn f32_agrees_with_f64_densely() {
     let mut rng = rand_pcg::Pcg64Mcg::new(7);

@@ -1,5 +1,6 @@
-//! The published approximations that the crate offers beside the exact functions are what their documentation says:
-//! Walter's Beckmann mask, the spline mask of GTR, Beckmann with the quicker sampling.
+//! The published approximations that the crate offers beside the exact functions are what their
+//! documentation says: Walter's Beckmann mask, the spline mask of GTR, Beckmann with the quicker
+//! sampling.
 
 use microsurface::beckmann::BeckmannTo1e6;
 use microsurface::filter::{Footprint, polygon};
@@ -74,7 +75,8 @@ fn beckmann_to_1e_6_is_beckmann() {
     check::<f64>(0);
 }
 
-/// A natural cubic spline through five values at 0, 1, 2, 3, 4, by elimination: independent of the crate's weights.
+/// A natural cubic spline through five values at 0, 1, 2, 3, 4, by elimination: independent of the
+/// crate's weights.
 fn natural_spline(values: [f64; 5], x: f64) -> f64 {
     let mut second = [0.0; 5];
     let mut diagonal = [4.0; 3];
@@ -97,7 +99,8 @@ fn natural_spline(values: [f64; 5], x: f64) -> f64 {
         + ((s * s * s - s) * second[left] + (t * t * t - t) * second[left + 1]) / 6.0
 }
 
-/// Dimov's printed G1 at γ = 0 … 4, as functions of μ = cot θ and α: the papers' formulas, not the crate's.
+/// Dimov's printed G1 at γ = 0 … 4, as functions of μ = cot θ and α: the papers' formulas, not the
+/// crate's.
 fn dimov(alpha: f64, mu: f64) -> [f64; 5] {
     let t = alpha * alpha;
     let r = (mu * mu + t).sqrt();
@@ -139,7 +142,8 @@ fn the_spline_is_that_of_the_papers() {
 
 #[test]
 fn the_spline_is_as_far_from_the_exact_mask_as_documented() {
-    // 30-digit masks at the γ between the knots; the largest errors of a fine scan are in numbers.tsv.
+    // 30-digit masks at the γ between the knots; the largest errors of a fine scan are in
+    // numbers.tsv.
     let documented = [(1e-3, 0.336), (0.01, 0.170), (0.05, 0.0591), (0.1, 0.0290), (0.8, 1.6e-4)];
     for (alpha, bound) in documented {
         let mut worst = 0.0_f64;
@@ -187,14 +191,14 @@ fn gtr_is_smooth_across_gamma_one() {
         for sin2 in [0.0, 0.25 * alpha * alpha, 0.3, 0.9] {
             let at = |excess: f64| density(alpha, 1.0 + excess, sin2);
             let middle = at(0.0);
-            // d ln D/dγ at 1, from the limit of the normalisation: ln v' with v' = α² + sin²θ(1 − α²), and
-            // d/dγ ln[(γ−1)/(1 − α^{2−2γ})] = ½ ln α².
+            // d ln D/dγ at 1, from the limit of the normalisation: ln v' with v' = α² + sin²θ(1 −
+            // α²), and d/dγ ln[(γ−1)/(1 − α^{2−2γ})] = ½ ln α².
             let log = 2.0 * alpha.ln();
             let exact = 0.5 * log - (alpha * alpha + sin2 * (1.0 - alpha * alpha)).ln();
             for h in [1e-4, 1e-5, 1e-6] {
                 let (left, right) = ((middle - at(-h)) / (h * middle), (at(h) - middle) / (h * middle));
-                // The one-sided slopes differ from the derivative by h times the second one, and by the rounding
-                // of D over h: no jump of either.
+                // The one-sided slopes differ from the derivative by h times the second one, and by
+                // the rounding of D over h: no jump of either.
                 let tolerance = h * (exact * exact + log * log + 1.0) + 1e-14 / h;
                 assert!(
                     (left - exact).abs() < tolerance && (right - exact).abs() < tolerance,

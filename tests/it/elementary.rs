@@ -65,7 +65,8 @@ struct Worst {
 }
 
 impl Worst {
-    /// `error` is the difference from `want` of a number with `digits` digits and this least exponent.
+    /// `error` is the difference from `want` of a number with `digits` digits and this least
+    /// exponent.
     fn see(&mut self, at: (f64, f64), error: f64, want: f64, digits: i32, least: i32) {
         let exponent = ((want.abs().to_bits() >> 52) as i32 - 1023).max(least);
         let ulp = (error * 2f64.powi(digits - 1) / 2f64.powi(exponent)).abs();
@@ -297,7 +298,8 @@ fn special_angles() {
     }
 }
 
-/// What must not jump where intervals or exponents meet: neighbours differ by the slope and a few ulp.
+/// What must not jump where intervals or exponents meet: neighbours differ by the slope and a few
+/// ulp.
 #[test]
 fn monotonic_where_the_slope_exceeds_the_error() {
     let decreasing: [fn(f32) -> f32; 3] = [e::erfc, e::erfcx, e::ierfcx];

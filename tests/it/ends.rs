@@ -1,4 +1,5 @@
-//! The ends of the domain of samplers: numbers of exactly 1, and views so steep that squares vanish.
+//! The ends of the domain of samplers: numbers of exactly 1, and views so steep that squares
+//! vanish.
 
 use microsurface::bsdf::{AllNormals, RoughConductor, UniformMixture};
 use microsurface::fresnel::Perfect;
@@ -68,8 +69,8 @@ fn one_is_the_last_number_f64() {
     one_is_the_last_number::<f64>();
 }
 
-/// A view so near to the normal that the square of its horizontal part is subnormal sees the slopes of the
-/// normal's view.
+/// A view so near to the normal that the square of its horizontal part is subnormal sees the slopes
+/// of the normal's view.
 fn slopes_of_steep_views_are_those_of_the_normal<T: Scalar>() {
     let surface = Beckmann::isotropic(T::lit(0.1)).unwrap();
     let slope = |x: f64, u: [f64; 2]| -> f64 {

@@ -22,7 +22,8 @@ fn uniform(random: &mut Pcg64Mcg, low: f64, high: f64) -> f64 {
     low + (high - low) * (random.next_u64() >> 11) as f64 * (0.5 * f64::EPSILON)
 }
 
-/// The entries of the roughness matrix of a map, and its determinant, without rounding to the scalar.
+/// The entries of the roughness matrix of a map, and its determinant, without rounding to the
+/// scalar.
 fn matrix<M: Map>(map: &M) -> ([f64; 3], f64) {
     let [[a, b], [_, d]] = map.inverse().map(|row| row.map(Real::to_f64));
     ([a * a, a * b, b * b + d * d], (a * d) * (a * d))

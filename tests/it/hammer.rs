@@ -1,5 +1,6 @@
-//! The whole parameter space, hammered: nothing may be NaN, negative, infinite where the documentation does not
-//! say so, above 1 where it is a share, or of the wrong length, and every sample must have a density.
+//! The whole parameter space, hammered: nothing may be NaN, negative, infinite where the
+//! documentation does not say so, above 1 where it is a share, or of the wrong length, and every
+//! sample must have a density.
 //!
 //! The long form, 10⁸ evaluations or as many as the variable says, with its progress on stderr:
 //! `MICROSURFACE_HAMMER=1e9 cargo test --release --test it hammer -- --ignored --nocapture`
@@ -337,16 +338,17 @@ impl<T: Scalar> Round<'_, T> {
     }
 }
 
-/// D wm.z/(4 wo·wm), the density of reflection by all normals, overflows where the cosine wo·wm = |h|/2 is small beside
-/// D: there ∞ is documented.
+/// D wm.z/(4 wo·wm), the density of reflection by all normals, overflows where the cosine
+/// wo·wm = |h|/2 is small beside D: there ∞ is documented.
 fn pdf_range<T: Scalar>(surface: &Surface<T>, h: [T; 3], bounded: bool) -> Range {
     let cosine = dot(h, h).sqrt().to_f64();
     let small = surface.d(h.map(|c| T::lit(c.to_f64() / cosine)).into()).to_f64().max(1.0) / T::MAX.to_f64();
     if bounded || cosine > 8.0 * small { Range::Finite } else { Range::MayOverflow }
 }
 
-/// Surfaces that can be built but not evaluated: principal widths so different that the nearest normals are far apart
-/// in slope, or a GTR under a map so narrow that both together leave the range of α.
+/// Surfaces that can be built but not evaluated: principal widths so different that the nearest
+/// normals are far apart in slope, or a GTR under a map so narrow that both together leave the
+/// range of α.
 fn beyond_the_scalar<T: Scalar>(spec: &Spec) -> bool {
     let [[a, b], [c, d]] = spec.factor::<T>();
     let smallest = (a * d - b * c).abs() / (a * a + b * b + c * c + d * d).sqrt();

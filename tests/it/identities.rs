@@ -1,6 +1,7 @@
-//! The integrals a normal distribution must satisfy, by quadrature, for every profile under every kind of map:
-//! ∫D cos = 1, ∫D max(0, w·m) = σ(w), ∫G1 D max(0, w·m) = w.z and the same over reflected directions, ∫D_w = 1,
-//! and ∫pdf of a reflection; and that the same code sees a mask 3 % too wide and a forgotten determinant.
+//! The integrals a normal distribution must satisfy, by quadrature, for every profile under every
+//! kind of map: ∫D cos = 1, ∫D max(0, w·m) = σ(w), ∫G1 D max(0, w·m) = w.z and the same over
+//! reflected directions, ∫D_w = 1, and ∫pdf of a reflection; and that the same code sees a mask 3 %
+//! too wide and a forgotten determinant.
 //!
 //! Deviations are printed with `--nocapture`; the limits below are at most twice the worst of them.
 
@@ -14,8 +15,8 @@ use crate::quadrature::{Estimate, Plane, over_hemisphere, over_reflected_directi
 use crate::scalar::{Scalar, dot, unit, vec3, wide};
 use crate::surfaces::{Move, Shape, Spec, Surface, Widths};
 
-/// The limit of a relative deviation, and the largest share of it that the coarser cubature may be off the finer:
-/// where both reach the rounding there is no smaller difference to be had.
+/// The limit of a relative deviation, and the largest share of it that the coarser cubature may be
+/// off the finer: where both reach the rounding there is no smaller difference to be had.
 #[derive(Clone, Copy)]
 struct Limit {
     relative: f64,
@@ -79,7 +80,8 @@ fn widths_and_moves() -> Vec<(Widths, Move)> {
     ]
 }
 
-/// Every shape-invariant profile under every map, and GTR of several α and γ under what moves the unit map.
+/// Every shape-invariant profile under every map, and GTR of several α and γ under what moves the
+/// unit map.
 fn specs() -> Vec<Spec> {
     let mut specs = Vec::new();
     for (widths, moved) in widths_and_moves() {
@@ -139,7 +141,8 @@ fn directions<T: Scalar>() -> Vec<[f64; 3]> {
     .to_vec()
 }
 
-/// D and what follows from it over normals, one evaluation of each; the last two for masks of eight nodes.
+/// D and what follows from it over normals, one evaluation of each; the last two for masks of eight
+/// nodes.
 fn over_normals<T: Scalar>(limits: &[Limit; 6]) {
     let mut worst: [Worst; 6] = Default::default();
     let mut integrals = 0;
@@ -212,8 +215,8 @@ fn integrals_over_normals_f32() {
     over_normals::<f32>(&[limit(2e-7, 1.0), others, others, others, limit(1.5e-5, 0.1), limit(1.1e-6, 0.5)]);
 }
 
-/// The reflection's furnace ∫D(h) G1/(4 |w.z|) dwi = 1 over all wi, at every width: the area that wi sweeps is the
-/// derivative of the mirror direction by the slope.
+/// The reflection's furnace ∫D(h) G1/(4 |w.z|) dwi = 1 over all wi, at every width: the area that
+/// wi sweeps is the derivative of the mirror direction by the slope.
 #[test]
 fn furnace_over_reflected_directions() {
     let mut worst = Worst::default();
@@ -302,7 +305,8 @@ fn joined(value: Estimate, other: Estimate) -> Estimate {
     Estimate { value: value.value, bound: value.bound + other.bound }
 }
 
-/// The deviations of ∫D cos, of σ and of the furnace for a density and a mask that need not belong together.
+/// The deviations of ∫D cos, of σ and of the furnace for a density and a mask that need not belong
+/// together.
 fn deviations(density: &Surface<f64>, factor: f64, mask: &Surface<f64>, w: [f64; 3]) -> [f64; 3] {
     let plane = plane::<f64>(&density.spec);
     let direction = vec3::<f64>(w);
@@ -315,7 +319,8 @@ fn deviations(density: &Surface<f64>, factor: f64, mask: &Surface<f64>, w: [f64;
     [deviation(normalised, 1.0), deviation(area, mask.sigma(direction)), deviation(furnace, w[2])]
 }
 
-/// What must be seen: a mask of α 3 % too large, a mask with its axes swapped, and a determinant left out.
+/// What must be seen: a mask of α 3 % too large, a mask with its axes swapped, and a determinant
+/// left out.
 #[test]
 fn wrong_masks_and_determinants_are_seen() {
     let build = |spec: Spec| spec.build::<f64>().expect("within the domain");

@@ -1,7 +1,8 @@
-//! Properties that hold at every argument, over strategies biased to the hard cases; one body for both scalars.
+//! Properties that hold at every argument, over strategies biased to the hard cases; one body for
+//! both scalars.
 //!
-//! Seeds are fixed, so that a run can be repeated; `PROPTEST_RNG_SEED=… PROPTEST_CASES=…` explores further.
-//! Failing seeds go to `tests/it/proptest-regressions` and stay there.
+//! Seeds are fixed, so that a run can be repeated; `PROPTEST_RNG_SEED=… PROPTEST_CASES=…` explores
+//! further. Failing seeds go to `tests/it/proptest-regressions` and stay there.
 
 use proptest::prelude::*;
 use proptest::test_runner::{FileFailurePersistence, RngSeed, TestCaseError, TestRunner};
@@ -58,8 +59,9 @@ fn near<T: Scalar>(name: &str, a: T, b: T, roundings: f64) -> Outcome {
     Ok(())
 }
 
-/// How many roundings D changes by when every component of a normal changes by one relative rounding and by
-/// `absolute` further ones of 1: the conditioning of D, from the surface's parameters.
+/// How many roundings D changes by when every component of a normal changes by one relative
+/// rounding and by `absolute` further ones of 1: the conditioning of D, from the surface's
+/// parameters.
 fn roundings_of_d(spec: &Spec, m: [f64; 3], absolute: f64) -> f64 {
     let [[a, b], [c, d]] = spec.factor::<f64>();
     let det = a * d - b * c;
@@ -89,7 +91,8 @@ fn roundings_of_d(spec: &Spec, m: [f64; 3], absolute: f64) -> f64 {
     }
 }
 
-/// How many roundings σ by one route is from σ by another: the sum over the nodes of a mixture has more.
+/// How many roundings σ by one route is from σ by another: the sum over the nodes of a mixture has
+/// more.
 fn roundings_of_sigma(spec: &Spec) -> f64 {
     match spec.shape {
         Shape::Mixture { .. } | Shape::Heavy { .. } | Shape::Filtered { .. } => 8.0,
@@ -97,7 +100,8 @@ fn roundings_of_sigma(spec: &Spec) -> f64 {
     }
 }
 
-/// How far rounding turns the stored map, in roundings of q: about half the ratio of its principal widths.
+/// How far rounding turns the stored map, in roundings of q: about half the ratio of its principal
+/// widths.
 pub(crate) fn skewness(spec: &Spec) -> f64 {
     let [[a, b], [c, d]] = spec.factor::<f64>();
     let det = (a * d - b * c).abs();

@@ -1,14 +1,15 @@
 //! Cubature over normals and directions in f64, with an error bound of its own.
 //!
-//! Normals are integrated over the slopes p of the *isotropic profile*: t = F p, F a factor of the roughness matrix
-//! that the test derives from the surface's parameters, ρ = |p|, x = ln ρ. In x every profile is smooth on a
-//! scale of 1 at any α: the nearest singularities of GGX and GTR are at distance π/2 off the real axis. Radially
-//! Gauss–Legendre panels; the azimuth by the periodic trapezoid rule on whole circles, by Gauss–Legendre on the
-//! arc of visible slopes otherwise. The plane of w cuts the circles from ρ = |w.z|/|Fᵀw_xy| on; there the radial
-//! integrand has a root singularity, which x = x₀ + y² removes.
+//! Normals are integrated over the slopes p of the *isotropic profile*: t = F p, F a factor of the
+//! roughness matrix that the test derives from the surface's parameters, ρ = |p|, x = ln ρ. In x
+//! every profile is smooth on a scale of 1 at any α: the nearest singularities of GGX and GTR are
+//! at distance π/2 off the real axis. Radially Gauss–Legendre panels; the azimuth by the periodic
+//! trapezoid rule on whole circles, by Gauss–Legendre on the arc of visible slopes otherwise. The
+//! plane of w cuts the circles from ρ = |w.z|/|Fᵀw_xy| on; there the radial integrand has a root
+//! singularity, which x = x₀ + y² removes.
 //!
-//! Every integral is computed twice, with fewer and with more nodes in every direction; the difference is the
-//! bound, that of the coarser result.
+//! Every integral is computed twice, with fewer and with more nodes in every direction; the
+//! difference is the bound, that of the coarser result.
 
 use core::f64::consts::{PI, TAU};
 
@@ -53,7 +54,8 @@ fn around(n: usize, start: f64) -> impl Iterator<Item = (f64, f64)> {
     (0..n).map(move |i| (start + step * (i as f64), step))
 }
 
-/// The slope plane of a surface: t = F p, and the range of ln |p| that holds all but 1e-16 of every integral.
+/// The slope plane of a surface: t = F p, and the range of ln |p| that holds all but 1e-16 of every
+/// integral.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Plane {
     /// F by columns.
@@ -147,10 +149,12 @@ impl Plane {
                     let weight = dx * rho * rho * self.area();
                     let beyond = if singular { step } else { a + step - kink };
                     if beyond <= 0.0 {
-                        // Panels below the kink exist only where these circles are visible as a whole.
+                        // Panels below the kink exist only where these circles are visible as a
+                        // whole.
                         around(circle, azimuth + 0.1).for_each(|(phi, arc)| add(rho, weight, phi, arc));
                     } else {
-                        // acos(w.z/(ρ tilt)) from 1 − e^{−beyond}, which has all its digits at the kink.
+                        // acos(w.z/(ρ tilt)) from 1 − e^{−beyond}, which has all its digits at the
+                        // kink.
                         let small = 2.0 * (-0.5 * (-beyond).exp_m1()).sqrt().asin();
                         let edge = if w[2] > 0.0 { small } else { PI - small };
                         on(&azimuthal, azimuth + edge, azimuth + TAU - edge)
@@ -162,7 +166,8 @@ impl Plane {
         })
     }
 
-    /// ∫ f(wm) dwm over the normals that reflect w to above the horizon: a disc of slopes about −w_xy/w.z.
+    /// ∫ f(wm) dwm over the normals that reflect w to above the horizon: a disc of slopes about
+    /// −w_xy/w.z.
     pub(crate) fn over_reflecting_normals(&self, w: [f64; 3], f: impl Fn([f64; 3]) -> f64) -> Estimate {
         let [estimate] = estimates(|fine| {
             let radial = gauss_legendre(if fine { 16 } else { 13 });
@@ -197,8 +202,8 @@ fn estimates<const K: usize>(integral: impl Fn(bool) -> [f64; K]) -> [Estimate; 
     core::array::from_fn(|k| Estimate { value: fine[k], bound: (fine[k] - coarse[k]).abs() })
 }
 
-/// ∫ f(wi) dwi over all directions whose half vector with w points up, in polar coordinates about w: no normal and
-/// no Jacobian of a half vector enters. For densities of width ≥ 0.2.
+/// ∫ f(wi) dwi over all directions whose half vector with w points up, in polar coordinates about
+/// w: no normal and no Jacobian of a half vector enters. For densities of width ≥ 0.2.
 pub(crate) fn over_reflected_directions(w: [f64; 3], f: impl Fn([f64; 3]) -> f64) -> Estimate {
     // e points down the slope of the sphere at w, b is horizontal.
     let sin = w[0].hypot(w[1]);
@@ -246,8 +251,8 @@ pub(crate) fn over_hemisphere(f: impl Fn([f64; 3]) -> f64) -> Estimate {
     estimate
 }
 
-/// The mirror direction of w about the normal of slope t, and the area |∂wi/∂t₁ × ∂wi/∂t₂| it sweeps: the
-/// derivative of the reflection itself, not the textbook's 4 w·wm.
+/// The mirror direction of w about the normal of slope t, and the area |∂wi/∂t₁ × ∂wi/∂t₂| it
+/// sweeps: the derivative of the reflection itself, not the textbook's 4 w·wm.
 pub(crate) fn reflection(w: [f64; 3], m: [f64; 3]) -> ([f64; 3], f64) {
     let wm = dot(w, m);
     // m = (−t, 1)/L with L = 1/m.z, so ∂m/∂t_j = −m.z e_j + m.z m.j m  (t_j = −m.j/m.z).

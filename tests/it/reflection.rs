@@ -1,5 +1,5 @@
-//! The BRDF of a rough conductor where properties over random arguments see little: the vanishing half vector,
-//! the density of a sample against that of its direction, weights against 1.
+//! The BRDF of a rough conductor where properties over random arguments see little: the vanishing
+//! half vector, the density of a sample against that of its direction, weights against 1.
 
 use microsurface::Ggx;
 use microsurface::bsdf::RoughConductor;
@@ -11,8 +11,8 @@ use rand_pcg::Pcg64Mcg;
 
 use crate::scalar::Scalar;
 
-/// Opposite directions a little above the horizon are reflected by a half vector of length 4e-5, and no longer
-/// below 2⁻³² (f32) or 2⁻²⁵⁶ (f64).
+/// Opposite directions a little above the horizon are reflected by a half vector of length 4e-5,
+/// and no longer below 2⁻³² (f32) or 2⁻²⁵⁶ (f64).
 #[test]
 fn the_half_vector_vanishes_where_documented() {
     let mirror = RoughConductor::new(Ggx::isotropic(1.0_f32).unwrap(), Perfect::<f32>::new());
@@ -38,7 +38,8 @@ fn view_and_numbers<T: Real>(random: &mut impl Rng) -> (T::Vec3, T::Vec2) {
     ([s * phi.cos(), s * phi.sin(), z].map(T::lit).into(), u.into())
 }
 
-/// The median, the 99th percentile and the largest of |ratio − 1| of `sample.pdf` and `pdf(wi, wo)`.
+/// The median, the 99th percentile and the largest of |ratio − 1| of `sample.pdf` and `pdf(wi,
+/// wo)`.
 fn deviations<T: Scalar>(alpha: f64) -> [f64; 3] {
     let mut random = Pcg64Mcg::new(3);
     let mirror = RoughConductor::new(Ggx::isotropic(T::lit(alpha)).unwrap(), Perfect::<T>::new());
@@ -54,8 +55,9 @@ fn deviations<T: Scalar>(alpha: f64) -> [f64; 3] {
     [deviations[count / 2], deviations[count * 99 / 100], deviations[count - 1]]
 }
 
-/// The table of [`Sample`](microsurface::bsdf::Sample): α, and per scalar the median, the 99th percentile, the
-/// largest. The largest of a hundred thousand is within a factor of ten of that of millions.
+/// The table of [`Sample`](microsurface::bsdf::Sample): α, and per scalar the median, the 99th
+/// percentile, the largest. The largest of a hundred thousand is within a factor of ten of that of
+/// millions.
 #[test]
 fn densities_of_samples_differ_as_documented() {
     for (alpha, single, double) in [

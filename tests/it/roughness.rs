@@ -1,4 +1,5 @@
-//! Widths: artists' maps by their values, clamping, the ends of the range, and rotated widths of any ratio.
+//! Widths: artists' maps by their values, clamping, the ends of the range, and rotated widths of
+//! any ratio.
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
@@ -95,8 +96,8 @@ fn clamping_maps_take_every_texel_f64() {
     clamping_maps_take_every_texel::<f64>();
 }
 
-/// The densities that a power heuristic squares and adds are numbers for the smoothest clamped surfaces, and
-/// would not be for much smoother ones.
+/// The densities that a power heuristic squares and adds are numbers for the smoothest clamped
+/// surfaces, and would not be for much smoother ones.
 fn squares_of_densities_are_numbers<T: Scalar>() {
     fn largest<T: Scalar>(surface: impl microsurface::SampleVndf<Scalar = T>) -> T {
         let mirror = RoughConductor::new(surface, Perfect::<T>::new());
@@ -203,8 +204,8 @@ fn anisotropic_gtr_of_exponent_2_is_ggx() {
     assert!(matches!(Gtr::rotated(0.5, 0.5, f64::NAN, 1.5), Err(Error::Parameter { name: "angle", .. })));
 }
 
-/// A principal α at the very end of the range stays, one a hundredth beyond is refused, on every way to a map;
-/// also where squares of it are no numbers.
+/// A principal α at the very end of the range stays, one a hundredth beyond is refused, on every
+/// way to a map; also where squares of it are no numbers.
 fn the_range_ends_where_it_ends<T: Scalar>() {
     let (smallest, largest) = alpha_range::<T>();
     let scaled = |alpha: T, factor: f64| T::lit(alpha.to_f64() * factor);

@@ -1,5 +1,5 @@
-//! Proptest strategies biased to where microfacet code breaks: grazing to the last ulp, poles, below the horizon,
-//! denormal components, wi ≈ ±wo, tiny and huge α, random numbers at both ends.
+//! Proptest strategies biased to where microfacet code breaks: grazing to the last ulp, poles,
+//! below the horizon, denormal components, wi ≈ ±wo, tiny and huge α, random numbers at both ends.
 
 use core::f64::consts::TAU;
 
@@ -24,8 +24,8 @@ pub(crate) fn at_radius<T: Scalar>(r: f64, phi: f64) -> [T; 3] {
     [r * phi.cos(), r * phi.sin(), ((1.0 - r) * (1.0 + r)).sqrt()].map(T::lit)
 }
 
-/// The smallest numbers of the scalar, by the index of a power of two above them; for f64 1e-308 is not a radius
-/// whose square anything resolves, but it is a component.
+/// The smallest numbers of the scalar, by the index of a power of two above them; for f64 1e-308 is
+/// not a radius whose square anything resolves, but it is a component.
 fn smallest_exponent<T: Scalar>() -> f64 {
     T::TINIEST.to_f64().max(f64::MIN_POSITIVE).log2() + 0.5
 }
@@ -66,8 +66,8 @@ pub(crate) fn anywhere<T: Scalar>() -> impl Strategy<Value = [T; 3]> {
     (above::<T>(), any::<bool>()).prop_map(|([x, y, z], up)| [x, y, if up { z } else { -z }])
 }
 
-/// Two directions above the horizon: unrelated, equal, a few ulps apart, mirrored, or almost opposite at the
-/// horizon.
+/// Two directions above the horizon: unrelated, equal, a few ulps apart, mirrored, or almost
+/// opposite at the horizon.
 pub(crate) fn pairs<T: Scalar>() -> impl Strategy<Value = ([T; 3], [T; 3])> {
     prop_oneof![
         4 => (above::<T>(), above::<T>()),
@@ -124,7 +124,8 @@ pub(crate) fn widths() -> impl Strategy<Value = Widths> {
     ]
 }
 
-/// The columns of an invertible matrix: rotation × diagonal × rotation, singular values 1/16 … 16, either handed.
+/// The columns of an invertible matrix: rotation × diagonal × rotation, singular values 1/16 … 16,
+/// either handed.
 pub(crate) fn matrix() -> impl Strategy<Value = [[f64; 2]; 2]> {
     (0.0..TAU, -4.0..4.0, -4.0..4.0, 0.0..TAU, any::<bool>()).prop_map(|(a, p, q, b, flipped)| {
         let (x, y) = (f64::exp2(p), f64::exp2(q) * if flipped { -1.0 } else { 1.0 });

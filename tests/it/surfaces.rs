@@ -1,5 +1,6 @@
-//! Surfaces as plain data, so that one test body runs over every profile and map, a failure can be printed, and
-//! the linear map is known from the parameters alone, without the crate's own map code.
+//! Surfaces as plain data, so that one test body runs over every profile and map, a failure can be
+//! printed, and the linear map is known from the parameters alone, without the crate's own map
+//! code.
 
 use core::fmt;
 use std::rc::Rc;
@@ -38,12 +39,14 @@ pub(crate) enum Shape {
         alpha: f64,
         gamma: f64,
     },
-    /// GGX convolved with a Gaussian of these standard deviations along the axes, as six surfaces more or as one.
+    /// GGX convolved with a Gaussian of these standard deviations along the axes, as six surfaces
+    /// more or as one.
     Filtered {
         deviations: [f64; 2],
         by_two: bool,
     },
-    /// GGX of `widths` and a Beckmann surface of α, half of each, as a caller's own [`Ndf`] of two functions.
+    /// GGX of `widths` and a Beckmann surface of α, half of each, as a caller's own [`Ndf`] of two
+    /// functions.
     Halves {
         alpha: f64,
     },
@@ -91,8 +94,8 @@ impl Spec {
         !matches!(self.shape, Shape::Spline { .. } | Shape::Halves { .. })
     }
 
-    /// With every parameter rounded to f32, so that both scalars hold the same; widths of matrices as their entries
-    /// cannot be, and are left out.
+    /// With every parameter rounded to f32, so that both scalars hold the same; widths of matrices
+    /// as their entries cannot be, and are left out.
     pub(crate) fn rounded(&self) -> Self {
         let held = |x: f64| f64::from(x as f32);
         let shape = match self.shape {
@@ -172,8 +175,8 @@ impl Spec {
         }
     }
 
-    /// A factor F of A = F Fᵀ, by columns, from the parameters as `T` holds them: slopes are t = F p with p those
-    /// of the isotropic profile.
+    /// A factor F of A = F Fᵀ, by columns, from the parameters as `T` holds them: slopes are t = F
+    /// p with p those of the isotropic profile.
     pub(crate) fn factor<T: Real>(&self) -> [[f64; 2]; 2] {
         let held = |x: f64| T::lit(x).to_f64();
         let [[a, b], [c, d]] = match self.widths {
@@ -304,8 +307,8 @@ fn matrix<T: Real>(columns: [[f64; 2]; 2]) -> T::Mat2 {
     T::matrix(columns.map(|column| column.map(T::lit)))
 }
 
-/// Half of one surface and half of another: what a caller's own distribution is, of the functions that
-/// [`Ndf`] asks for and no other.
+/// Half of one surface and half of another: what a caller's own distribution is, of the functions
+/// that [`Ndf`] asks for and no other.
 struct Halves<T: Real>(Surface<T>, Surface<T>);
 
 impl<T: Real> Ndf for Halves<T> {

@@ -169,7 +169,8 @@ fn anisotropy_is_a_transform_of_shape_invariant_profiles_only() {
         let moved = Beckmann::isotropic(from).unwrap().transformed(m).unwrap().d(n);
         let classical = Beckmann::anisotropic(x, y).unwrap().d(n);
         assert!((moved / classical - 1.0).abs() < 1e-10 || classical < 1e-60);
-        // GTR of width x, seen along x, is not the GTR of width 0.3 moved by 0.3/x: the tails differ.
+        // GTR of width x, seen along x, is not the GTR of width 0.3 moved by 0.3/x: the tails
+        // differ.
         let along = DVec3::new(n.x.hypot(n.y), 0.0, n.z);
         let squeezed = DMat2::from_diagonal(DVec2::splat(from / x));
         let gtr = Gtr::isotropic(from, 1.4).unwrap().transformed(squeezed).unwrap().d(along);
@@ -207,7 +208,8 @@ fn tension_is_the_deformation_in_the_frame_of_u() {
         }
         seen += 1;
         let tension = triangle.tension().unwrap();
-        // M up to the rotation that takes the image of the u axis back to x: what is left is upper triangular.
+        // M up to the rotation that takes the image of the u axis back to x: what is left is upper
+        // triangular.
         let rotated = m * DVec2::X;
         let back = DMat2::from_angle(-rotated.y.atan2(rotated.x)) * m;
         assert!((tension - back).to_cols_array().iter().all(|c| c.abs() < 1.5e-12), "{tension} {back}");
@@ -276,7 +278,8 @@ fn triangles_without_area_have_no_tension() {
 
 #[test]
 fn vertices_have_the_mean_of_their_triangles() {
-    // A strip: the left square is stretched along x, the right one stays, and one triangle has no area.
+    // A strip: the left square is stretched along x, the right one stays, and one triangle has no
+    // area.
     let rest: Vec<DVec3> = [(0, 0), (1, 0), (2, 0), (0, 1), (1, 1), (2, 1)]
         .map(|(x, y)| DVec3::new(f64::from(x), f64::from(y), 0.0))
         .to_vec();

@@ -1,10 +1,11 @@
 //! Coordinates of the sphere of normals in which a distribution is flat.
 //!
-//! A chart maps the unit square to normals by inverting the distribution function of one coordinate after the
-//! other (Rosenblatt 1952), from closed forms of the papers and a map R of the test's own: no code of the crate
-//! takes part. Where sampler and density are right both are uniform in (u₁, u₂), whatever α, the map or the angle,
-//! so that equal rectangles are cells of equal probability and a quadrature over a cell is exact to rounding. Where
-//! one of them is wrong the chart is still a bijection with a known Jacobian, and the test is still valid.
+//! A chart maps the unit square to normals by inverting the distribution function of one coordinate
+//! after the other (Rosenblatt 1952), from closed forms of the papers and a map R of the test's
+//! own: no code of the crate takes part. Where sampler and density are right both are uniform in
+//! (u₁, u₂), whatever α, the map or the angle, so that equal rectangles are cells of equal
+//! probability and a quadrature over a cell is exact to rounding. Where one of them is wrong the
+//! chart is still a bijection with a known Jacobian, and the test is still valid.
 
 mod mixed;
 mod polar;
@@ -14,7 +15,8 @@ pub(crate) use mixed::Mixed;
 pub(crate) use polar::{Polar, Radial, Reflecting};
 pub(crate) use view::{Cap, View, VisibleProfile};
 
-/// A bijection of the unit square and the upper hemisphere (or a part of it), one coordinate for each axis.
+/// A bijection of the unit square and the upper hemisphere (or a part of it), one coordinate for
+/// each axis.
 pub(crate) trait Chart {
     /// The coordinates of a normal, which increase with u₁ and u₂.
     fn coordinates(&self, m: [f64; 3]) -> [f64; 2];
@@ -29,8 +31,8 @@ pub(crate) trait Chart {
     fn point(&self, coordinates: [f64; 2]) -> ([f64; 3], f64);
 }
 
-/// The root of an increasing function: bisection to a bracket of 0.06, then the Illinois variant of the false position.
-/// What precision is lost moves a node of the quadrature, not its integral.
+/// The root of an increasing function: bisection to a bracket of 0.06, then the Illinois variant of
+/// the false position. What precision is lost moves a node of the quadrature, not its integral.
 fn root(excess: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     while high - low > 0.06 {
         let middle = 0.5 * (low + high);
@@ -60,7 +62,8 @@ fn root(excess: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
 
 /// R = M⁻¹ by rows, the inverse of the map that takes a profile to the surface.
 ///
-/// Heights stay where they are when the plane is moved, h(p) = h_P(R p), hence slopes are t = Rᵀ t_P.
+/// Heights stay where they are when the plane is moved, h(p) = h_P(R p), hence slopes are t = Rᵀ
+/// t_P.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Inverse(pub(crate) [[f64; 2]; 2]);
 
@@ -89,7 +92,8 @@ impl Inverse {
         [a * w[0] + b * w[1], c * w[0] + d * w[1]]
     }
 
-    /// The normal of the profile's slope `t`, and the solid angle cos³θ |det R| of a unit of profile slopes.
+    /// The normal of the profile's slope `t`, and the solid angle cos³θ |det R| of a unit of
+    /// profile slopes.
     fn normal(self, t: [f64; 2]) -> ([f64; 3], f64) {
         let [x, y] = self.slope(t);
         let cos = 1.0 / (1.0 + x * x + y * y).sqrt();

@@ -1,10 +1,11 @@
 //! Pearson's χ² test of a sampler against the density the crate gives for it.
 //!
-//! Samples are counted in a grid of cells of a [`Chart`]; the expectation of a cell is N ∫ density, integrated
-//! numerically with an error far below the Poisson noise √E. Under the hypothesis that the sampler has this density,
-//! Σ (O − E)²/E follows the χ² distribution with one degree of freedom less than there are cells (the total is
-//! fixed), provided that no E is small: cells of E < 5 are pooled. Three things reject without statistics:
-//! a sample where the density is 0, a density that does not integrate to 1, and a sample that is no unit vector.
+//! Samples are counted in a grid of cells of a [`Chart`]; the expectation of a cell is N ∫ density,
+//! integrated numerically with an error far below the Poisson noise √E. Under the hypothesis that
+//! the sampler has this density, Σ (O − E)²/E follows the χ² distribution with one degree of
+//! freedom less than there are cells (the total is fixed), provided that no E is small: cells of E
+//! < 5 are pooled. Three things reject without statistics: a sample where the density is 0, a
+//! density that does not integrate to 1, and a sample that is no unit vector.
 
 use core::fmt::Write;
 
@@ -16,8 +17,8 @@ use crate::special::{chi_square_survival, count};
 /// The smallest expectation for which Poisson counts are close enough to normal (Cochran 1954).
 const SMALLEST_EXPECTATION: f64 = 5.0;
 
-/// What share of the Poisson noise √E of a cell the error of its expectation may be. A systematic error of that
-/// share in every cell raises χ² by 4e-4 of its degrees of freedom.
+/// What share of the Poisson noise √E of a cell the error of its expectation may be. A systematic
+/// error of that share in every cell raises χ² by 4e-4 of its degrees of freedom.
 const SHARE_OF_NOISE: f64 = 0.02;
 
 /// A sampler and the density to compare it with.
@@ -30,7 +31,8 @@ pub(crate) struct Subject<'a> {
     pub(crate) density: &'a dyn Fn([f64; 3]) -> f64,
     /// Whether the density may integrate to less than 1, by the share of samples that are none.
     pub(crate) misses: bool,
-    /// By how much the integral may be off because the mask is approximate; expectations are then shares of it.
+    /// By how much the integral may be off because the mask is approximate; expectations are then
+    /// shares of it.
     pub(crate) masking: f64,
     /// The unit roundoff of the scalar under test.
     pub(crate) epsilon: f64,
@@ -47,12 +49,14 @@ pub(crate) struct Effort {
 }
 
 impl Effort {
-    /// 16 × 10 cells, of about 800 samples each but for the tails: 3 % of α shift the GGX statistic by 7 σ.
+    /// 16 × 10 cells, of about 800 samples each but for the tails: 3 % of α shift the GGX statistic
+    /// by 7 σ.
     pub(crate) const QUICK: Self = Self { samples: 100_000, rows: 12, columns: 10, depth: 3 };
     /// Resolves errors ten times smaller.
     pub(crate) const LONG: Self = Self { samples: 10_000_000, rows: 24, columns: 24, depth: 8 };
 
-    /// The edges of the cells in (u₁, u₂): even, with thinner cells for both tails of the first axis.
+    /// The edges of the cells in (u₁, u₂): even, with thinner cells for both tails of the first
+    /// axis.
     fn edges(self) -> [Vec<f64>; 2] {
         let even = |n: u32| (0..=n).map(move |i| f64::from(i) / f64::from(n));
         let mut first: Vec<f64> = even(self.rows).chain([0.001, 0.01, 0.99, 0.999]).collect();
@@ -128,7 +132,8 @@ pub(crate) fn test(mut subject: Subject<'_>, effort: Effort, points: &mut dyn Po
     let tolerance = |mass: f64| SHARE_OF_NOISE * (mass / n).max(SMALLEST_EXPECTATION / (n * n)).sqrt();
     let masses = Quadrature::new(subject.chart, subject.density, effort.depth).grid(&edges, &tolerance);
     let mass = total(&masses);
-    // The integrals are sums of numbers that carry a rounding of the density, up to some 10 ε, each.
+    // The integrals are sums of numbers that carry a rounding of the density, up to some 10 ε,
+    // each.
     let allowance = mass.error + 64.0 * subject.epsilon + 1e-9 + subject.masking;
     let excess = if subject.misses { mass.value - 1.0 } else { (mass.value - 1.0).abs() };
     let mut impossible =
@@ -178,7 +183,8 @@ fn histogram(
     points: &mut dyn Points,
     impossible: &mut Option<String>,
 ) -> (Vec<usize>, usize) {
-    // The inner edges, as coordinates: a sample is binned without evaluating a distribution function.
+    // The inner edges, as coordinates: a sample is binned without evaluating a distribution
+    // function.
     let cuts = [0, 1].map(|axis: usize| -> Vec<f64> {
         let inner = &edges[axis][1..edges[axis].len() - 1];
         inner.iter().map(|&u| subject.chart.quantile(axis, u)).collect()
@@ -218,7 +224,8 @@ fn places(edges: &[Vec<f64>; 2]) -> impl Iterator<Item = String> {
     })
 }
 
-/// The cells with those of small expectation put together, the smallest first, until each pool is large enough.
+/// The cells with those of small expectation put together, the smallest first, until each pool is
+/// large enough.
 fn pooled(mut cells: Vec<Cell>) -> Vec<Cell> {
     cells.sort_by(|a, b| a.expected.total_cmp(&b.expected));
     let mut result: Vec<Cell> = Vec::with_capacity(cells.len());

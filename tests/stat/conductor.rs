@@ -1,9 +1,11 @@
-//! Reflection: `RoughConductor::sample` against `pdf`, the share of samples that are none, and mean weights.
+//! Reflection: `RoughConductor::sample` against `pdf`, the share of samples that are none, and mean
+//! weights.
 //!
-//! Directions to the light are binned by their half vector, in the chart of the surface's normals: an implicit
-//! change of variable whose Jacobian dwm/dwi = 1/(4 wo·wm) is the test's own (Walter 2007, Eq. 14). Normals that
-//! reflect below the horizon have no density; the samples that are none belong to them and make a cell of their own,
-//! whose expectation is what the integral of the pdf lacks to 1.
+//! Directions to the light are binned by their half vector, in the chart of the surface's normals:
+//! an implicit change of variable whose Jacobian dwm/dwi = 1/(4 wo·wm) is the test's own (Walter
+//! 2007, Eq. 14). Normals that reflect below the horizon have no density; the samples that are none
+//! belong to them and make a cell of their own, whose expectation is what the integral of the pdf
+//! lacks to 1.
 
 use microsurface::profile::{SampleProfile, SampleVisibleProfile};
 use microsurface::{Beckmann, Ggx, Gtr, Real};
@@ -160,7 +162,8 @@ impl<'a> Run<'a> {
     }
 }
 
-/// A standard error of the mean weight below which rounding and quadrature count, and a test is none.
+/// A standard error of the mean weight below which rounding and quadrature count, and a test is
+/// none.
 const NEGLIGIBLE: f64 = 1e-5;
 
 /// Mean and variance of weights (Welford 1962).
@@ -184,8 +187,8 @@ impl Weights {
         (self.squares / (n * (n - 1.0))).sqrt()
     }
 
-    /// The two-sided p-value that the mean is `expected`: normal by the central limit theorem. To the standard error
-    /// comes that of the quadrature, far below it.
+    /// The two-sided p-value that the mean is `expected`: normal by the central limit theorem. To
+    /// the standard error comes that of the quadrature, far below it.
     fn p_value(&self, expected: Mass) -> f64 {
         let error = self.standard_error().hypot(expected.error);
         erfc((self.mean - expected.value).abs() / error / 2_f64.sqrt())
@@ -344,7 +347,8 @@ fn wrong_pdfs_and_weights_are_rejected() {
     }
 }
 
-/// The mean weight of a case is not the albedo of a wider surface, of separable masking, or 1 % more than its own.
+/// The mean weight of a case is not the albedo of a wider surface, of separable masking, or 1 %
+/// more than its own.
 fn wrong_albedos(case: &Case, wider: &Case) {
     let mut weights = Weights::default();
     let pdf = |wi| case.brdf.pdf(wi, case.wo);
@@ -369,7 +373,8 @@ fn wrong_albedos(case: &Case, wider: &Case) {
     }
 }
 
-/// Every wi drawn has its half vector in the chart: the chart's coordinates go back to the direction they came from.
+/// Every wi drawn has its half vector in the chart: the chart's coordinates go back to the
+/// direction they came from.
 #[test]
 fn half_vectors_reflect_back() {
     let case = Case::new::<f64>(Distribution::Ggx, Normals::Visible, Shape::Moved(0.3, SKEW), 60.0);

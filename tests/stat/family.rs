@@ -6,11 +6,12 @@ use crate::{chi_square, ks};
 /// The probability that a family of correct samplers is rejected.
 const SIGNIFICANCE: f64 = 0.01;
 
-/// The tests of one family. Each is judged at 1 − (1 − 1 %)^{1/n} (Šidák 1967), so that n correct samplers pass
-/// together with a probability of 99 %; seeds are fixed, so that a family that passes does so always.
+/// The tests of one family. Each is judged at 1 − (1 − 1 %)^{1/n} (Šidák 1967), so that n correct
+/// samplers pass together with a probability of 99 %; seeds are fixed, so that a family that passes
+/// does so always.
 ///
-/// The p-values of correct tests are uniform. That is tested too: it finds what is wrong a little everywhere, and
-/// statistics that are better than random.
+/// The p-values of correct tests are uniform. That is tested too: it finds what is wrong a little
+/// everywhere, and statistics that are better than random.
 #[derive(Default)]
 pub(crate) struct Family {
     name: &'static str,
@@ -76,7 +77,8 @@ impl Family {
     }
 }
 
-/// Asserts that the statistic alone rejects a wrong pairing, at the significance a family of a thousand tests has.
+/// Asserts that the statistic alone rejects a wrong pairing, at the significance a family of a
+/// thousand tests has.
 pub(crate) fn assert_rejected(outcome: &chi_square::Outcome) {
     eprintln!("negative control {}: p = {:.1e} {:?}", outcome.label, outcome.p_value, outcome.impossible);
     assert!(outcome.p_value < 1e-5, "accepted: {} with p = {:.3e}", outcome.label, outcome.p_value);

@@ -1,7 +1,8 @@
-//! What stratified points do for visible normals of GTR, drawn by inversion and, for comparison, by rejection.
+//! What stratified points do for visible normals of GTR, drawn by inversion and, for comparison, by
+//! rejection.
 //!
-//! The rejection samplers are written here. They are exact as well, but use up an unpredictable part of the points:
-//! evenly spread points come out as a random part of themselves.
+//! The rejection samplers are written here. They are exact as well, but use up an unpredictable
+//! part of the points: evenly spread points come out as a random part of themselves.
 
 use microsurface::gtr::components::Components;
 use microsurface::{Ggx, Gtr};
@@ -48,7 +49,8 @@ impl Scene {
         }
     }
 
-    /// The light reflected by a visible normal over its density: under a lobe about 30 degrees off the mirror direction.
+    /// The light reflected by a visible normal over its density: under a lobe about 30 degrees off
+    /// the mirror direction.
     fn value(&self, m: [f64; 3]) -> f64 {
         let wo = self.wo;
         let cos = wo[0] * m[0] + wo[1] * m[1] + wo[2] * m[2];
@@ -113,7 +115,8 @@ fn random(seed: u64) -> Set {
     (0..POINTS).map(|i| random.point(i)).collect()
 }
 
-/// One point in every square of a grid, in random order: what follows an accepted point tells nothing of it.
+/// One point in every square of a grid, in random order: what follows an accepted point tells
+/// nothing of it.
 fn stratified(seed: u64) -> Set {
     let mut random = Random::new(seed, 53);
     let mut points: Vec<(f64, [f64; 2])> = (0..SIDE * SIDE)
@@ -187,8 +190,9 @@ fn even_points_lower_the_variance_of_inversion_more_than_of_rejection() {
                 rejection[0][1] / inversion[0][1],
                 rejection[1][1] / inversion[1][1],
             );
-            // Measured: γ < 2 at least 2.9 on the grid and 6.7 with R2; γ > 2 at least 2.2 with R2, and 1.2 on the grid,
-            // no more than noise: 32 rows are few for some 60 components and exponents.
+            // Measured: γ < 2 at least 2.9 on the grid and 6.7 with R2; γ > 2 at least 2.2 with R2,
+            // and 1.2 on the grid, no more than noise: 32 rows are few for some 60 components and
+            // exponents.
             let [grid, sequence] = if gamma < 2.0 { [2.0, 4.0] } else { [0.0, 1.8] };
             assert!(gains[0][0] > grid && gains[0][1] > sequence, "inversion: {gains:?}");
             assert!(gains[0][1] > 1.4 * gains[1][1], "rejection is not worse: {gains:?}");

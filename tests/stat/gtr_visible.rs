@@ -1,4 +1,5 @@
-//! Visible normals of GTR: `sample_vndf` against `vndf`, for every way to make a surface that has them.
+//! Visible normals of GTR: `sample_vndf` against `vndf`, for every way to make a surface that has
+//! them.
 
 use microsurface::gtr::table::GtrTable;
 use microsurface::{Gtr, Real};
@@ -15,8 +16,8 @@ const WIDTHS: [f64; 5] = [1e-3, 0.01, 0.1, 0.5, 0.9];
 /// Degrees from the zenith.
 const ANGLES: [f64; 9] = [0.0, 20.0, 45.0, 60.0, 75.0, 85.0, 89.5, 100.0, 150.0];
 
-/// The largest relative error of σ, and with it of what vndf integrates to: below the horizon all of σ is z Λ, a small
-/// difference.
+/// The largest relative error of σ, and with it of what vndf integrates to: below the horizon all
+/// of σ is z Λ, a small difference.
 fn masking(w: [f64; 3]) -> f64 {
     if w[2] < 0.0 { 1e-2 } else { 1e-4 }
 }
@@ -141,8 +142,8 @@ fn map(kind: usize, random: &mut Random) -> Shape {
     }
 }
 
-/// Every γ with every α: `Gtr::isotropic` from one angle under one map, another kind from another, and every fourth in
-/// f32.
+/// Every γ with every α: `Gtr::isotropic` from one angle under one map, another kind from another,
+/// and every fourth in f32.
 fn cases_in_turn() -> Vec<Case> {
     let mut random = Random::new(2026, 53);
     let pairs = GAMMAS.iter().flat_map(|&gamma| WIDTHS.map(|alpha| (alpha, gamma)));
@@ -186,8 +187,8 @@ fn sample_vndf_of_gtr_has_its_density() {
     run(Family::new("sample_vndf of GTR"), &cases_in_turn(), QUICK);
 }
 
-/// The chart owes nothing to the crate: that vndf is flat in it to what its few components leave tests vndf, point by
-/// point.
+/// The chart owes nothing to the crate: that vndf is flat in it to what its few components leave
+/// tests vndf, point by point.
 #[test]
 fn vndf_of_gtr_is_flat_in_its_chart() {
     let mut largest = (0.0, String::new());

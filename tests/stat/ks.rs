@@ -1,8 +1,9 @@
 //! The Kolmogorov–Smirnov test of marginals whose distribution functions are known in closed form.
 //!
-//! The largest distance D between the empirical and the given distribution function has, for a correct sampler and
-//! n → ∞, P(√n D > λ) = Q(λ); Stephens' √n + 0.12 + 0.11/√n in place of √n makes this accurate to 1e-3 of p from
-//! n = 10 on. Needs neither cells nor the crate's density, and is sensitive to smooth shifts that cells average out.
+//! The largest distance D between the empirical and the given distribution function has, for a
+//! correct sampler and n → ∞, P(√n D > λ) = Q(λ); Stephens' √n + 0.12 + 0.11/√n in place of √n
+//! makes this accurate to 1e-3 of p from n = 10 on. Needs neither cells nor the crate's density,
+//! and is sensitive to smooth shifts that cells average out.
 
 use crate::special::{count, kolmogorov_q};
 

@@ -1,8 +1,10 @@
-//! Statistical tests: every sampler against its density, by χ² and Kolmogorov–Smirnov, with negative controls.
+//! Statistical tests: every sampler against its density, by χ² and Kolmogorov–Smirnov, with
+//! negative controls.
 //!
-//! Seeds are fixed, so that a run repeats to the last bit on one platform. Plain `cargo test` draws 1e5 samples a
-//! case, which resolves 3 % of α. The long forms, of 1e7 samples, all widths at all angles and random maps, are run by
-//! `cargo test --test stat -- --ignored --nocapture --test-threads 1`, and say on stderr how far they are.
+//! Seeds are fixed, so that a run repeats to the last bit on one platform. Plain `cargo test` draws
+//! 1e5 samples a case, which resolves 3 % of α. The long forms, of 1e7 samples, all widths at all
+//! angles and random maps, are run by `cargo test --test
+//! stat -- --ignored --nocapture --test-threads 1`, and say on stderr how far they are.
 
 mod chart;
 mod chi_square;

@@ -1,8 +1,9 @@
 //! What `UniformMixture::for_alpha` does to the variance: the table of its documentation.
 //!
-//! Variances are integrals, ∫ (f L wi.z)²/pdf dwi − (∫ f L wi.z dwi)², over the square of the mean, and are estimated
-//! as such for every sampling from the same stratified directions, half of them uniform: the weights of all normals at
-//! grazing angles are too rare to be met by their own samples.
+//! Variances are integrals, ∫ (f L wi.z)²/pdf dwi − (∫ f L wi.z dwi)², over the square of the mean,
+//! and are estimated as such for every sampling from the same stratified directions, half of them
+//! uniform: the weights of all normals at grazing angles are too rare to be met by their own
+//! samples.
 
 use microsurface::bsdf::{AllNormals, UniformMixture};
 use microsurface::{Ggx, Gtr};
@@ -63,7 +64,8 @@ fn measured(alpha: f64, gamma: Option<f64>, degrees: f64, n: u32) -> Vec<[f64; 2
     variances(&[&*all, &*mixed], &*half, degrees, n)
 }
 
-/// Mean variances over γ and angles, of [all normals, the mixture], each under [light all around, a lobe].
+/// Mean variances over γ and angles, of [all normals, the mixture], each under [light all around, a
+/// lobe].
 fn means(alpha: f64, n: u32) -> [[f64; 2]; 2] {
     let mut sums = [[0.0; 2]; 2];
     for gamma in GAMMAS {

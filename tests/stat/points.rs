@@ -9,7 +9,8 @@ pub(crate) trait Points {
     fn point(&mut self, i: usize) -> [f64; 2];
 }
 
-/// Independent points on the grid of the scalar under test: 2⁻²⁴ for f32, so that none rounds to 1, 2⁻⁵³ for f64.
+/// Independent points on the grid of the scalar under test: 2⁻²⁴ for f32, so that none rounds to 1,
+/// 2⁻⁵³ for f64.
 pub(crate) struct Random {
     generator: Pcg64,
     bits: u32,
@@ -39,7 +40,8 @@ impl Points for Random {
     }
 }
 
-/// The 2ᵏ points (i/2ᵏ, radical inverse of i): one in every elementary interval, 0 included (Hammersley 1960).
+/// The 2ᵏ points (i/2ᵏ, radical inverse of i): one in every elementary interval, 0 included
+/// (Hammersley 1960).
 pub(crate) struct Hammersley(pub(crate) u32);
 
 impl Points for Hammersley {
@@ -49,8 +51,8 @@ impl Points for Hammersley {
     }
 }
 
-/// The additive recurrence of the plastic number (Roberts 2018, "The unreasonable effectiveness of quasirandom
-/// sequences"), rounded to 2⁻²⁴ so that f32 represents it; its first point is 0.
+/// The additive recurrence of the plastic number (Roberts 2018, "The unreasonable effectiveness of
+/// quasirandom sequences"), rounded to 2⁻²⁴ so that f32 represents it; its first point is 0.
 pub(crate) struct LowDiscrepancy;
 
 impl Points for LowDiscrepancy {

@@ -16,7 +16,8 @@ pub(crate) fn total(masses: &[Mass]) -> Mass {
     Mass { value: sum(|m| m.value), error: sum(|m| m.error) }
 }
 
-/// Gauss–Legendre rules of 4 and 6 points; their difference is the (pessimistic) error of the second.
+/// Gauss–Legendre rules of 4 and 6 points; their difference is the (pessimistic) error of the
+/// second.
 pub(crate) struct Quadrature<'a> {
     chart: &'a dyn Chart,
     density: &'a dyn Fn([f64; 3]) -> f64,
@@ -33,8 +34,8 @@ impl<'a> Quadrature<'a> {
         Self { chart, density, rules: [gauss_legendre(4), gauss_legendre(6)], depth }
     }
 
-    /// The mass of every cell of the grid with these edges in (u₁, u₂), row by row. The error of a cell of mass p is
-    /// brought below `tolerance(p)` where the depth allows it.
+    /// The mass of every cell of the grid with these edges in (u₁, u₂), row by row. The error of a
+    /// cell of mass p is brought below `tolerance(p)` where the depth allows it.
     pub(crate) fn grid(&self, edges: &[Vec<f64>; 2], tolerance: &dyn Fn(f64) -> f64) -> Vec<Mass> {
         let axis = |axis: usize| -> Vec<[Nodes; 2]> {
             edges[axis].windows(2).map(|e| self.nodes(axis, [e[0], e[1]])).collect()

@@ -1,10 +1,12 @@
 //! The special functions of the statistics, each checked against closed forms or tables below.
 //!
-//! They are written here, in the plainest form that converges, so that nothing under test judges itself.
+//! They are written here, in the plainest form that converges, so that nothing under test judges
+//! itself.
 
 use core::f64::consts::PI;
 
-/// ln Γ(x) for x > 0: Stirling's series after shifting x above 12, where five terms leave less than 1e-15.
+/// ln Γ(x) for x > 0: Stirling's series after shifting x above 12, where five terms leave less than
+/// 1e-15.
 fn ln_gamma(mut x: f64) -> f64 {
     let mut shift = 1.0;
     while x < 12.0 {
@@ -70,9 +72,11 @@ pub(crate) fn erfcx(x: f64) -> f64 {
     if x * x >= 1.5 { x / PI.sqrt() * upper_fraction(0.5, x * x) } else { (x * x).exp() * erfc(x) }
 }
 
-/// Kolmogorov's Q(λ) = 2 Σ (−1)^{k−1} e^{−2k²λ²}: the probability that √n sup|Fₙ − F| exceeds λ, n → ∞.
+/// Kolmogorov's Q(λ) = 2 Σ (−1)^{k−1} e^{−2k²λ²}: the probability that √n sup|Fₙ − F| exceeds λ, n
+/// → ∞.
 ///
-/// Below λ = 1.18 the same theta function is summed in its dual form, of which five terms are exact to 1e-16.
+/// Below λ = 1.18 the same theta function is summed in its dual form, of which five terms are exact
+/// to 1e-16.
 pub(crate) fn kolmogorov_q(lambda: f64) -> f64 {
     if lambda < 0.04 {
         return 1.0;
@@ -122,7 +126,8 @@ fn close(value: f64, expected: f64) {
 
 #[test]
 fn chi_square_survival_has_its_closed_forms_and_table_values() {
-    // Two degrees of freedom: e^{−x/2}. Four: (1 + x/2) e^{−x/2}. Abramowitz and Stegun, table 26.7.
+    // Two degrees of freedom: e^{−x/2}. Four: (1 + x/2) e^{−x/2}. Abramowitz and Stegun, table
+    // 26.7.
     for x in [0.1, 1.0, 3.9, 4.1, 20.0, 300.0] {
         close(chi_square_survival(2, x), (-0.5 * x).exp());
         close(chi_square_survival(4, x), (1.0 + 0.5 * x) * (-0.5 * x).exp());

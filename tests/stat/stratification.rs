@@ -1,9 +1,10 @@
 //! Samplers keep stratified points stratified.
 //!
-//! A sampler that is continuous and not folded takes evenly spread points to evenly spread points of its density.
-//! A cell's count then deviates only by what happens along its rim, in proportion to E^{1/4} or to the logarithm of
-//! the discrepancy, where random points deviate by E^{1/2}: the χ² statistic, about 1 a cell for random points, falls
-//! far below. Both sets of points begin at u = (0, 0) exactly.
+//! A sampler that is continuous and not folded takes evenly spread points to evenly spread points
+//! of its density. A cell's count then deviates only by what happens along its rim, in proportion
+//! to E^{1/4} or to the logarithm of the discrepancy, where random points deviate by E^{1/2}: the
+//! χ² statistic, about 1 a cell for random points, falls far below. Both sets of points begin at
+//! u = (0, 0) exactly.
 
 use microsurface::{Beckmann, Ggx, Gtr};
 
@@ -21,8 +22,8 @@ const EFFORT: Effort = Effort { samples: 1 << LOG2_SAMPLES, rows: 12, columns: 1
 /// χ² of even points for a degree of freedom, at most. The worst here is about a third of it.
 const LARGEST_RATIO: f64 = 0.25;
 
-/// The same of GTR, whose components and exponents are chosen by a coordinate too: every border between two is a rim
-/// that some cells have inside.
+/// The same of GTR, whose components and exponents are chosen by a coordinate too: every border
+/// between two is a rim that some cells have inside.
 const LARGEST_RATIO_OF_COMPONENTS: f64 = 0.5;
 
 fn ratio(outcome: &Outcome) -> f64 {

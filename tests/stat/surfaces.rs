@@ -1,4 +1,5 @@
-//! The surfaces of the crate behind one interface in f64, and the maps they are seen through, as the test has them.
+//! The surfaces of the crate behind one interface in f64, and the maps they are seen through, as
+//! the test has them.
 
 use microsurface::RoughnessMatrix;
 use microsurface::bsdf::{AllNormals, NormalSampling, RoughConductor, UniformMixture};
@@ -161,7 +162,8 @@ where
     }
 }
 
-/// The surface of a profile under a shape, of whichever type of map the shape is made with, in an expression.
+/// The surface of a profile under a shape, of whichever type of map the shape is made with, in an
+/// expression.
 macro_rules! with_map {
     ($t:ty, $profile:expr, $shape:expr, $surface:ident => $result:expr) => {{
         let lit = <$t as Real>::lit;

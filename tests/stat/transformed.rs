@@ -1,4 +1,5 @@
-//! Black boxes moved by skewed, mirrored and nearly singular matrices: both samplers against their densities.
+//! Black boxes moved by skewed, mirrored and nearly singular matrices: both samplers against their
+//! densities.
 
 use microsurface::transform::Transformed;
 use microsurface::{Beckmann, Ggx, Real};

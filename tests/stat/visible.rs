@@ -46,7 +46,8 @@ impl Case {
         View::new(self.profile, self.inverse, self.w)
     }
 
-    /// Whether anything is visible in the scalar: σ of Beckmann below the horizon falls like e^{−ν²}.
+    /// Whether anything is visible in the scalar: σ of Beckmann below the horizon falls like
+    /// e^{−ν²}.
     pub(crate) fn is_representable(&self) -> bool {
         let largest = if self.surface.bits() == 24 { -8.0 } else { -24.0 };
         self.profile == VisibleProfile::Ggx || self.view().nu() > largest
@@ -161,7 +162,8 @@ fn sample_vndf_to_1e_6_has_its_density() {
     run(Family::new("sample_vndf to 1e-6"), &cases_to_1e_6(), Effort::QUICK);
 }
 
-/// The slopes along and across the view against their closed forms; for GGX height and azimuth on the cap.
+/// The slopes along and across the view against their closed forms; for GGX height and azimuth on
+/// the cap.
 #[test]
 fn marginals_of_sample_vndf_have_their_closed_forms() {
     let mut all = cases::<f64>(isotropic(&[1e-4, 0.1, 0.9]), &ANGLES);

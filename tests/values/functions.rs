@@ -67,9 +67,7 @@ pub(crate) fn others<T: Real>(record: &mut Record) {
         let mut random = Random::new(11);
         for _ in 0..1000 {
             let (n, t, w) = (random.anywhere::<T>(), random.vector::<T>(), random.anywhere::<T>());
-            for frame in
-                [Frame::<T>::from_normal(n), Frame::<T>::from_normal_and_tangent(n, t)]
-            {
+            for frame in [Frame::<T>::from_normal(n), Frame::<T>::from_normal_and_tangent(n, t)] {
                 for axis in frame.axes() {
                     hash.three::<T>(axis);
                 }

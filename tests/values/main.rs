@@ -1,8 +1,9 @@
-//! Value stability: hashes of about a million results of the public functions, scalar and batched, f32 and f64.
+//! Value stability: hashes of about a million results of the public functions, scalar and batched,
+//! f32 and f64.
 //!
-//! A change of structure leaves every row of `hashes.tsv` as it is. A change of numbers changes some, and is
-//! listed under "Values" in the changelog. Square roots apart, only the `libm` crate is used, so that the numbers
-//! are the same on every platform:
+//! A change of structure leaves every row of `hashes.tsv` as it is. A change of numbers changes
+//! some, and is listed under "Values" in the changelog. Square roots apart, only the `libm` crate
+//! is used, so that the numbers are the same on every platform:
 //!
 //! `cargo test --features libm --test values`
 //!

@@ -82,8 +82,7 @@ fn over_footprints<T: Real + Spectrum<Scalar = T>>(record: &mut Record) {
             RoughConductor::new(Beckmann::isotropic(T::lit(0.3)).unwrap(), Schlick::new(T::HALF).unwrap());
         for _ in 0..500 {
             let [i, o] = [random.above::<T>(), random.above()].map(Into::into);
-            let footprint =
-                Footprint::<T>::new(random.slope::<T>(0.05), random.slope::<T>(0.05));
+            let footprint = Footprint::<T>::new(random.slope::<T>(0.05), random.slope::<T>(0.05));
             hash.all(&[ggx.eval_over(i, o, footprint), beckmann.eval_over(i, o, footprint)]);
         }
     });

@@ -1,5 +1,6 @@
-//! The entry points of [`microsurface::batch`] at each level of the instruction set that this processor has, beside the
-//! loop a user would write and the scalar call with every result opaque, of the crate and of the textbook.
+//! The entry points of [`microsurface::batch`] at each level of the instruction set that this
+//! processor has, beside the loop a user would write and the scalar call with every result opaque,
+//! of the crate and of the textbook.
 
 use core::cell::RefCell;
 use core::hint::black_box;
@@ -89,7 +90,8 @@ struct Arguments<T> {
 }
 
 impl<T: Elementary + Spectrum<Scalar = T>> Arguments<T> {
-    /// What the textbook has, in the groups that [`ask`](Self::ask) goes on with. That of GGX is the measure of all.
+    /// What the textbook has, in the groups that [`ask`](Self::ask) goes on with. That of GGX is
+    /// the measure of all.
     fn textbook(&self, criterion: &mut Criterion, alpha: T) {
         let n = self.wo.x.len();
         let (wi, wo) = (self.wi.slices(), self.wo.slices());
@@ -132,7 +134,8 @@ impl<T: Elementary + Spectrum<Scalar = T>> Arguments<T> {
         compare(criterion, "entry_sample_ggx", n, &mut [(scalar, sample)]);
     }
 
-    /// What no form of GGX's reflection can do without: its loads and its store, three roots, one quotient.
+    /// What no form of GGX's reflection can do without: its loads and its store, three roots, one
+    /// quotient.
     fn limits(&self, criterion: &mut Criterion) {
         let n = self.wo.x.len();
         let input = (self.wi.borrowed(), self.wo.borrowed());

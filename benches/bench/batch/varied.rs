@@ -1,5 +1,5 @@
-//! GGX's reflection where every element has a surface of its own: as a slice of materials, textured, and filtered over its
-//! footprint, beside the scalar calls that do the same.
+//! GGX's reflection where every element has a surface of its own: as a slice of materials,
+//! textured, and filtered over its footprint, beside the scalar calls that do the same.
 
 use core::hint::black_box;
 

@@ -43,9 +43,10 @@ pub(crate) fn reflection_walter2007<T: Elementary>(width: Width<T>, f0: T, wi: [
     reflection_of(f0, wi, wo, |m| d(width, m), |w| lambda_walter2007(width, w))
 }
 
-/// Heitz and d'Eon 2014, §4.1, the slope along the view inverted as in Jakob 2014, "An improved visible normal sampling
-/// routine for the Beckmann distribution": Newton's iteration for b = erf(slope), guarded by bisection, until the
-/// distribution function is met to 1e-5 or ten steps are done; by these error functions.
+/// Heitz and d'Eon 2014, §4.1, the slope along the view inverted as in Jakob 2014, "An improved
+/// visible normal sampling routine for the Beckmann distribution": Newton's iteration for b =
+/// erf(slope), guarded by bisection, until the distribution function is met to 1e-5 or ten steps
+/// are done; by these error functions.
 #[inline(always)]
 pub(crate) fn visible_normal_jakob2014<T: Elementary>(
     width: Width<T>,
@@ -57,7 +58,8 @@ pub(crate) fn visible_normal_jakob2014<T: Elementary>(
     visible_normal(width, w, u, erf_inv, |cos, sin, u| slope_jakob2014(cos, sin, u, erf, erf_inv))
 }
 
-/// The same as in Mitsuba: another start, without jumps in u, and three steps of Newton's without a guard.
+/// The same as in Mitsuba: another start, without jumps in u, and three steps of Newton's without a
+/// guard.
 #[inline(always)]
 pub(crate) fn visible_normal_mitsuba<T: Elementary>(width: Width<T>, w: [T; 3], u: [T; 2]) -> [T; 3] {
     visible_normal(width, w, u, erf_inv, slope_mitsuba)

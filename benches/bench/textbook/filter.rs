@@ -7,8 +7,8 @@ use super::Elementary;
 /// The least side of a rectangle: §5.2.
 const EPSILON: f64 = 1e-3;
 
-/// The mean of GGX over the bounding rectangle of the steps u and v of a footprint: Eq. 16 and Appendix A, between
-/// h ± ½Δ as in Eq. 16.
+/// The mean of GGX over the bounding rectangle of the steps u and v of a footprint: Eq. 16 and
+/// Appendix A, between h ± ½Δ as in Eq. 16.
 #[inline(always)]
 pub(crate) fn mean_of_rectangle<T: Elementary>(
     [alpha, beta]: [T; 2],
@@ -33,7 +33,8 @@ fn phi<T: Elementary>(x: T, y: T, gamma: T, delta: T) -> T {
     x * (gamma * y / (root * delta)).atan() / root
 }
 
-/// α' of the bounding rectangle, αᵢ'² = αᵢ² + min(2σ²Δᵢ², κ), σ² = ¼: Eq. 20, and P22 of GGX with it.
+/// α' of the bounding rectangle, αᵢ'² = αᵢ² + min(2σ²Δᵢ², κ), σ² = ¼: Eq. 20, and P22 of GGX with
+/// it.
 #[inline(always)]
 pub(crate) fn proxy_of_rectangle<T: Real>(alphas: [T; 2], slope: [T; 2], [u, v]: [[T; 2]; 2]) -> T {
     let squares = [0, 1].map(|i| {

@@ -1,4 +1,5 @@
-//! GGX after Walter 2007 (Eqs. 33–34), Burley 2012, Heitz 2014 and 2018, and Dupuy and Benyoub 2023.
+//! GGX after Walter 2007 (Eqs. 33–34), Burley 2012, Heitz 2014 and 2018, and Dupuy and
+//! Benyoub 2023.
 
 use microsurface::Real;
 
@@ -54,8 +55,8 @@ pub(crate) fn reflection_anisotropic<T: Real>(widths: Anisotropic<T>, f0: T, wi:
     reflection_of(f0, wi, wo, |m| d_anisotropic(widths, m), |w| lambda_anisotropic(widths, w))
 }
 
-/// Heitz 2018, "Sampling the GGX distribution of visible normals", JCGT 7(4), §3: stretch the view, build a basis about
-/// it, warp a disc, lift it to the hemisphere, unstretch.
+/// Heitz 2018, "Sampling the GGX distribution of visible normals", JCGT 7(4), §3: stretch the view,
+/// build a basis about it, warp a disc, lift it to the hemisphere, unstretch.
 #[inline(always)]
 pub(crate) fn visible_normal_heitz2018<T: Elementary>(
     Anisotropic { alpha_x, alpha_y }: Anisotropic<T>,
@@ -83,8 +84,8 @@ pub(crate) fn visible_normal_heitz2018<T: Elementary>(
     normalized([alpha_x * normal[0], alpha_y * normal[1], normal[2].max(T::ZERO)])
 }
 
-/// Dupuy and Benyoub 2023, "Sampling visible GGX normals with spherical caps", as printed: a point of the cap about the
-/// vertical that the stretched view bounds, and the half vector of both.
+/// Dupuy and Benyoub 2023, "Sampling visible GGX normals with spherical caps", as printed: a point
+/// of the cap about the vertical that the stretched view bounds, and the half vector of both.
 #[inline(always)]
 pub(crate) fn visible_normal_dupuy2023<T: Elementary>(
     Anisotropic { alpha_x, alpha_y }: Anisotropic<T>,
@@ -99,7 +100,8 @@ pub(crate) fn visible_normal_dupuy2023<T: Elementary>(
     normalized([alpha_x * half[0], alpha_y * half[1], half[2]])
 }
 
-/// A reflected direction by a visible normal, with the weight F G2/G1 and the density D G1/(4 cos): Heitz 2018, §5.
+/// A reflected direction by a visible normal, with the weight F G2/G1 and the density D G1/(4 cos):
+/// Heitz 2018, §5.
 #[inline(always)]
 pub(crate) fn sampled_reflection_heitz2018<T: Elementary>(
     widths: Anisotropic<T>,

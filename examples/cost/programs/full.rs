@@ -1,4 +1,5 @@
-//! Every distribution under every map, and the filters: by scalar calls, and with the feature `batches` in batches too.
+//! Every distribution under every map, and the filters: by scalar calls, and with the feature
+//! `batches` in batches too.
 
 use std::hint::black_box;
 

@@ -15,8 +15,8 @@ pub(crate) fn erf_hastings<T: Elementary>(x: T) -> T {
     (T::ONE - sum * (-a * a).exp()).copysign(x)
 }
 
-/// erf⁻¹ in single precision: M. Giles, "Approximating the erfinv function", GPU Computing Gems (2011), Listing 1; in use
-/// in pbrt.
+/// erf⁻¹ in single precision: M. Giles, "Approximating the erfinv function", GPU Computing Gems
+/// (2011), Listing 1; in use in pbrt.
 #[inline(always)]
 pub(crate) fn erf_inv_giles<T: Elementary>(x: T) -> T {
     const CENTRE: [f64; 9] = [
@@ -55,7 +55,8 @@ const LINEAR: f64 = 0.695;
 const SQUARE: f64 = 0.22748836;
 const CUBE: f64 = 1.0 - LINEAR - SQUARE;
 
-/// eˣ = 2ⁿ·2ᶠ with a cubic for 2ᶠ that is exact at 0 and 1, as pbrt-v4 has one; 0 or ∞ beyond the normal numbers of f32.
+/// eˣ = 2ⁿ·2ᶠ with a cubic for 2ᶠ that is exact at 0 and 1, as pbrt-v4 has one; 0 or ∞ beyond the
+/// normal numbers of f32.
 #[inline(always)]
 pub(super) fn exp_cubic<T: Libraries>(x: T) -> T {
     let scaled = x * T::lit(core::f64::consts::LOG2_E);

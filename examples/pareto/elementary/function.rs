@@ -20,8 +20,8 @@ pub(super) struct Function<T, const OUT: usize> {
     pub(super) in_table: [&'static str; OUT],
     /// For f32.
     pub(super) exact: fn(f64, f64) -> [f64; OUT],
-    /// Where arguments are drawn: half of them uniformly, and of half of them the first's logarithm, from 1e-6 times the end
-    /// that is farther from 0, of either sign.
+    /// Where arguments are drawn: half of them uniformly, and of half of them the first's
+    /// logarithm, from 1e-6 times the end that is farther from 0, of either sign.
     pub(super) domain: [(f64, f64); 2],
     /// The results count their errors in ulp of 1.
     pub(super) absolute: bool,

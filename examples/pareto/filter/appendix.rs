@@ -2,8 +2,8 @@
 
 use microsurface::glam::Vec2;
 
-/// The mean of P22 of GGX over the rectangle of these extents about a slope, none of which is below `least`: Eq. 16 and
-/// Appendix A, from h − ½Δ to h + ½Δ as in Eq. 16; §5.2 has `least` = 1e-3.
+/// The mean of P22 of GGX over the rectangle of these extents about a slope, none of which is below
+/// `least`: Eq. 16 and Appendix A, from h − ½Δ to h + ½Δ as in Eq. 16; §5.2 has `least` = 1e-3.
 pub(super) fn mean(alpha: f32, slope: Vec2, extents: Vec2, least: f32) -> f32 {
     let extents = extents.max(Vec2::splat(least));
     let (from, to) = (slope - 0.5 * extents, slope + 0.5 * extents);

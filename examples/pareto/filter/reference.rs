@@ -23,7 +23,8 @@ fn rule(mut f: impl FnMut(f64) -> f64) -> f64 {
     NODES.iter().zip(WEIGHTS).fold(0.0, |sum, (x, w)| sum + 0.5 * w * (f(*x) + f(-x)))
 }
 
-/// The mean of the unit GGX over the parallelogram centre ± ½u ± ½v: parts are halved until they agree with their halves.
+/// The mean of the unit GGX over the parallelogram centre ± ½u ± ½v: parts are halved until they
+/// agree with their halves.
 pub(super) fn mean(centre: DVec2, u: DVec2, v: DVec2) -> f64 {
     let part = |centre: DVec2, u: DVec2, v: DVec2| rule(|x| rule(|y| p22(centre + 0.5 * (x * u + y * v))));
     let mut total = 0.0_f64;
@@ -75,8 +76,9 @@ fn integral(f: impl Fn(f64) -> f64, ends: &mut Vec<f64>, from: f64, to: f64) -> 
 /// Standard deviations to which a Gaussian is followed: beyond, 1e-18 of it is left.
 const REACH: f64 = 9.0;
 
-/// The unit GGX convolved with a Gaussian of variance σ² in every direction, by polar coordinates about its centre:
-/// ∫ r e^{−r²/2σ²}/σ² g(r) dr, g the mean of P22 on the circle of radius r about the slope.
+/// The unit GGX convolved with a Gaussian of variance σ² in every direction, by polar coordinates
+/// about its centre: ∫ r e^{−r²/2σ²}/σ² g(r) dr, g the mean of P22 on the circle of radius r about
+/// the slope.
 pub(super) fn isotropic(slope: f64, sigma: f64) -> f64 {
     let on_circle = |r: f64| {
         // (1 + t² + r²)² − 4 t² r², as a product that does not cancel.
@@ -93,7 +95,8 @@ pub(super) fn isotropic(slope: f64, sigma: f64) -> f64 {
     integral(integrand, &mut ends, 0.0, REACH * sigma)
 }
 
-/// The unit GGX convolved with a Gaussian along a line, of the standard deviation |σ| in the direction of σ.
+/// The unit GGX convolved with a Gaussian along a line, of the standard deviation |σ| in the
+/// direction of σ.
 pub(super) fn line(slope: DVec2, sigma: DVec2) -> f64 {
     let root = core::f64::consts::TAU.sqrt();
     let integrand = |x: f64| (-0.5 * x * x).exp() / root * p22(slope - x * sigma);
@@ -109,10 +112,11 @@ pub(super) fn line(slope: DVec2, sigma: DVec2) -> f64 {
 /// 30-digit values of isotropic kernels: s = 2σ², |t|², P22.
 const TABLE: &str = include_str!("../../../tests/reference/filter_gaussian.tsv");
 
-/// Compares the quadratures with what is known otherwise, and prints the largest relative differences.
+/// Compares the quadratures with what is known otherwise, and prints the largest relative
+/// differences.
 pub(super) fn validate(out: &mut impl Write) -> io::Result<()> {
-    // The share of facets within a rectangle, Kaplanyan et al. 2016, Appendix A, in 30 digits: x from 0.5 to 2.5, y from −0.25 to
-    // 1.5; and everything.
+    // The share of facets within a rectangle, Kaplanyan et al. 2016, Appendix A, in 30 digits: x
+    // from 0.5 to 2.5, y from −0.25 to 1.5; and everything.
     let rectangle = 3.5 * mean(DVec2::new(1.5, 0.625), 2.0 * DVec2::X, 1.75 * DVec2::Y);
     let rectangle = (rectangle / 0.124_474_031_492_067 - 1.0).abs();
     let all = (1e12 * mean(DVec2::ONE, 1e6 * DVec2::X, 1e6 * DVec2::Y) - 1.0).abs();

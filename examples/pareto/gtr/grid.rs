@@ -1,4 +1,5 @@
-//! Where GTR's masks are compared: widths, exponents, directions, and the exact G1 there, computed once for all.
+//! Where GTR's masks are compared: widths, exponents, directions, and the exact G1 there, computed
+//! once for all.
 
 use microsurface::Real;
 
@@ -21,7 +22,8 @@ pub(crate) struct Grid<T: Real> {
     pub(crate) points: Vec<Point<T>>,
 }
 
-/// γ in equal steps up to 4, and beyond, where few alternatives go, just above the integers and at quarters.
+/// γ in equal steps up to 4, and beyond, where few alternatives go, just above the integers and at
+/// quarters.
 fn gammas(per_unit: u32) -> Vec<f64> {
     let step = 1.0 / f64::from(per_unit);
     let mut gammas: Vec<f64> = (0..4 * per_unit).map(|i| step * f64::from(i)).collect();

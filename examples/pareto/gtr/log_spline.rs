@@ -1,4 +1,5 @@
-//! A spline over γ of ln Λ instead of G1: what the papers' interpolation could have been without overshoot.
+//! A spline over γ of ln Λ instead of G1: what the papers' interpolation could have been without
+//! overshoot.
 
 use microsurface::elementary::{exp, ln};
 use microsurface::gtr::Gtr;
@@ -7,7 +8,8 @@ use microsurface::{Isotropic, Microsurface, Ndf, Real};
 
 type Surface<T, const G: u8> = Microsurface<Gtr<T, Closed<T, G>>, Isotropic<T>>;
 
-/// The mask whose ln Λ is the natural cubic spline through those of γ = 0, 1, 2, 3, 4: positive, and exact at the knots.
+/// The mask whose ln Λ is the natural cubic spline through those of γ = 0, 1, 2, 3, 4: positive,
+/// and exact at the knots.
 #[derive(Clone, Copy)]
 pub(crate) struct LogSpline<T: Real> {
     weights: [T; 5],
@@ -52,8 +54,8 @@ fn weights(gamma: f64) -> [f64; 5] {
     let knots = [0.0, 1.0, 2.0, 3.0, 4.0];
     core::array::from_fn(|k| {
         let value = |j: usize| if j == k { 1.0 } else { 0.0 };
-        // Second derivatives: m₀ = m₄ = 0, mⱼ₋₁ + 4 mⱼ + mⱼ₊₁ = 6 Δ²ⱼ, by Gauss and Seidel's iteration, which
-        // contracts by 8.
+        // Second derivatives: m₀ = m₄ = 0, mⱼ₋₁ + 4 mⱼ + mⱼ₊₁ = 6 Δ²ⱼ, by Gauss and Seidel's
+        // iteration, which contracts by 8.
         let mut m = [0.0; 5];
         for _ in 0..40 {
             for j in 1..4 {

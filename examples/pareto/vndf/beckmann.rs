@@ -1,7 +1,8 @@
-//! Beckmann: the slope along the view by one step of high order, and by Newton's method as renderers have it.
+//! Beckmann: the slope along the view by one step of high order, and by Newton's method as
+//! renderers have it.
 //!
-//! All invert the same distribution, so that one f64 inversion is the reference of all; what a tolerance leaves is
-//! an error as rounding is.
+//! All invert the same distribution, so that one f64 inversion is the reference of all; what a
+//! tolerance leaves is an error as rounding is.
 
 use std::io::{self, Write};
 

@@ -1,8 +1,9 @@
 //! GTR: mixtures with their components kept and made for each sample, and closed forms.
 //!
-//! The map jumps from component to component, and beside a jump rounding chooses the neighbour, whose normals are as good but
-//! elsewhere: the worst error is that of a jump and tells nothing, the root of the mean square tells how seldom they are. Random
-//! numbers are uniform here: at their ends a few ulps of u.x hold whole components.
+//! The map jumps from component to component, and beside a jump rounding chooses the neighbour,
+//! whose normals are as good but elsewhere: the worst error is that of a jump and tells nothing,
+//! the root of the mean square tells how seldom they are. Random numbers are uniform here: at their
+//! ends a few ulps of u.x hold whole components.
 
 use std::io::{self, Write};
 

@@ -43,10 +43,12 @@ impl<I: Inversion<T>, T: Real> Solver for VisibleSlopes<I, T> {
     }
 }
 
-/// [`slopes`](super::slopes) of many ν ≥ 0 at once, instead of u; where ν is negative or NaN, meaningless numbers.
+/// [`slopes`](super::slopes) of many ν ≥ 0 at once, instead of u; where ν is negative or NaN,
+/// meaningless numbers.
 ///
-/// Each is one long chain of operations, longer than a processor looks ahead, so that a loop over the whole chain waits for it.
-/// Loops over its parts overlap those of several elements. The operations are those of [`slopes`](super::slopes), to the bit.
+/// Each is one long chain of operations, longer than a processor looks ahead, so that a loop over
+/// the whole chain waits for it. Loops over its parts overlap those of several elements. The
+/// operations are those of [`slopes`](super::slopes), to the bit.
 #[inline(always)]
 pub(super) fn slopes_from_above<I: Inversion<T>, T: Real, const N: usize>(
     nu: &[I::Wide; N],

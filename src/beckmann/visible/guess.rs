@@ -5,9 +5,11 @@ use crate::elementary::ln_normal;
 use crate::elementary::polynomial::polynomial;
 use crate::real::Real;
 
-/// B of the guess for ν < 0: its coefficient of √a by powers of √(√π·ierfcx n). Error of w ≤ 0.031/(1 + n).
+/// B of the guess for ν < 0: its coefficient of √a by powers of √(√π·ierfcx n). Error of w ≤
+/// 0.031/(1 + n).
 const BELOW: [f64; 3] = [0.212842, 0.41683, 0.770999];
-/// γ − 1 of the guess for ν ≥ 0: s·(c₀ + c₁s + c₂s²)/(1 + (c₃ + c₄s)·√a). Error of x ≤ 0.0035 where x ≤ 0.
+/// γ − 1 of the guess for ν ≥ 0: s·(c₀ + c₁s + c₂s²)/(1 + (c₃ + c₄s)·√a). Error of x ≤ 0.0035 where
+/// x ≤ 0.
 const GAMMA: [f64; 5] = [1.636621, 0.009239, -0.815615, 1.682954, -0.887447];
 /// The excess of the guess for x > 0: xw²/(c₀ + c₁w³ + c₂xw²). Error of x ≤ 0.027, growing as
 /// (1 − u)^−0.12 below 1 − u = 0.01.
@@ -16,21 +18,23 @@ const EXCESS: [f64; 3] = [2.563261, 2.713977, 3.47698];
 /// ln(1 + f)/f for √½ ≤ 1 + f < √2, to 5.1e-5 relative.
 const LN: [f64; 5] = [0.999966139, -0.499451076, 0.336391782, -0.270938792, 0.176551638];
 
-/// To the guess a view is no higher, and e^(−ν²) no less than [`LEAST`]: so no number of it is subnormal in f32, and where
-/// ν is limited the farthest w is more.
+/// To the guess a view is no higher, and e^(−ν²) no less than [`LEAST`]: so no number of it is
+/// subnormal in f32, and where ν is limited the farthest w is more.
 pub(super) const HIGHEST: f64 = 1e9;
 /// See [`HIGHEST`].
 pub(super) const LEAST: f64 = 1e-30;
 /// The guess keeps this part of the way to ν, where its own error could pass it.
 const MARGIN: f64 = 0.00390625; // 2⁻⁸
 
-/// The guess treats 1 − u as no smaller: the rounding of F must stay small beside 1 − F at the guess.
+/// The guess treats 1 − u as no smaller: the rounding of F must stay small beside 1 − F at the
+/// guess.
 #[inline(always)]
 fn last<G: Real>() -> G {
     G::lit(if G::WIDENS { 5.960464477539063e-8 } else { 8.881784197001252e-16 }) // 2⁻²⁴, 2⁻⁵⁰
 }
 
-/// ln x of a normal x > 0, without a division. Relative error of ln m ≤ 5.1e-5, m the fraction of x.
+/// ln x of a normal x > 0, without a division. Relative error of ln m ≤ 5.1e-5, m the fraction of
+/// x.
 #[inline(always)]
 fn rough_ln<G: Real>(x: G) -> G {
     let (m, k) = x.split_exponent();
@@ -68,7 +72,8 @@ impl<G: Real> Outset<G> {
         select(self.below, self.total, at_zero)
     }
 
-    /// The guess of erfc x − erfc ν where x > 0, and that of a; in f64 to its digits, which makes the guess exact for ν = 0.
+    /// The guess of erfc x − erfc ν where x > 0, and that of a; in f64 to its digits, which makes
+    /// the guess exact for ν = 0.
     #[inline(always)]
     pub(super) fn mass(&self, u: G) -> (G, G) {
         let l = G::lit;
@@ -98,7 +103,8 @@ impl<G: Real> Outset<G> {
         let (below, beyond) = (self.below, u * self.total > self.at_zero());
         let root = a.sqrt();
 
-        // X = √(c² + r) − c with centre c and rise r over a common divisor, the centre of which is s·γ/√π
+        // X = √(c² + r) − c with centre c and rise r over a common divisor, the centre of which is
+        // s·γ/√π
         let s = select(beyond, G::ONE, G::SQRT_PI * self.bv);
         let t = select(beyond, G::ONE, self.b + G::SQRT_PI * self.bv);
         let divisor = t * t * (t + root * (l(GAMMA[3]) * t + l(GAMMA[4]) * s));

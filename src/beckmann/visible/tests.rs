@@ -35,7 +35,8 @@ fn visible_slope<T: Real<Wide = f64>>(nu: f64, u: T) -> f64 {
     super::visible_slope::<ToRounding, T>(nu, u)
 }
 
-/// The largest difference of u between computed and tabulated slopes, without what rounding of x itself makes.
+/// The largest difference of u between computed and tabulated slopes, without what rounding of x
+/// itself makes.
 fn worst_of_table<T: Real<Wide = f64>>() -> f64 {
     let mut worst = 0.0_f64;
     for [nu, u, x, w] in table() {
@@ -156,7 +157,8 @@ fn known_inverses() {
     }
 }
 
-/// Where monotonicity is tested: both ends, the middle, where the guess changes its formula, and anywhere.
+/// Where monotonicity is tested: both ends, the middle, where the guess changes its formula, and
+/// anywhere.
 fn places(nu: f64, state: &mut u64) -> [f64; 7] {
     let (view, _) = view::<f64>(nu);
     let seam = if nu < 0.0 { 0.25 } else { fraction(&view, (0.0, view.bv)) };
@@ -201,7 +203,8 @@ fn monotone_in_f64() {
 
 #[test]
 fn continuous_in_the_view() {
-    // the slope follows ν, no faster than ν itself, also where the formulas change: ν = 0, ν = 1, F(0) = u·F(ν)
+    // the slope follows ν, no faster than ν itself, also where the formulas change: ν = 0, ν = 1,
+    // F(0) = u·F(ν)
     let step = 1.0 / 4096.0;
     for u in [1e-6, 0.01, 0.2, 0.5, 0.7, 0.9, 0.99, 0.9999] {
         let mut last = visible_slope(-12.0, u);

@@ -7,13 +7,15 @@ use crate::elementary::exp_normal;
 use crate::elementary::polynomial::polynomial;
 use crate::real::{Real, converted};
 
-/// Farther below the horizon than this, slope and view direction agree to rounding: the slope is the horizon's.
+/// Farther below the horizon than this, slope and view direction agree to rounding: the slope is
+/// the horizon's.
 #[inline(always)]
 fn deepest<W: Real>() -> W {
     W::lit(if W::WIDENS { 1048576.0 } else { 8589934592.0 }) // 2²⁰, 2³³
 }
 
-/// Beyond this e^(−ν²) adds nothing to F and to the guess, where it is as at this ν: what it multiplies stays a normal number.
+/// Beyond this e^(−ν²) adds nothing to F and to the guess, where it is as at this ν: what it
+/// multiplies stays a normal number.
 #[inline(always)]
 fn steep<W: Real>() -> W {
     W::lit(if W::WIDENS { 6.0 } else { 12.0 })

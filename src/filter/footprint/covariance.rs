@@ -7,7 +7,8 @@ use crate::elementary::exact::difference_of_products;
 use crate::error::Error;
 use crate::map::{Gram, sum};
 
-/// The screen-space variance σ² of a pixel filter whose standard deviation is half a pixel, in pixels².
+/// The screen-space variance σ² of a pixel filter whose standard deviation is half a pixel, in
+/// pixels².
 ///
 /// # References
 /// Kaplanyan, Hill, Patney and Lefohn 2016, §4.3; Tokuyoshi 2017, below Eq. 2.
@@ -17,7 +18,8 @@ pub fn variance_kaplanyan2016<T: Real>() -> T {
     T::lit(0.25)
 }
 
-/// The screen-space variance σ² = 1/(2π) of the Gaussian whose peak is that of a box of one pixel, in pixels².
+/// The screen-space variance σ² = 1/(2π) of the Gaussian whose peak is that of a box of one pixel,
+/// in pixels².
 ///
 /// # References
 /// Tokuyoshi and Kaplanyan 2021.
@@ -27,7 +29,8 @@ pub fn variance_tokuyoshi2021<T: Real>() -> T {
     T::lit(0.5 * core::f64::consts::FRAC_1_PI)
 }
 
-/// The screen-space variance of a box of one pixel, 1/12, in pixels²: that of the mean over a footprint.
+/// The screen-space variance of a box of one pixel, 1/12, in pixels²: that of the mean over a
+/// footprint.
 #[inline]
 #[must_use]
 pub fn variance_of_box<T: Real>() -> T {
@@ -46,12 +49,12 @@ pub fn largest_kernel<T: Real>() -> T {
 
 /// A covariance Σ of slopes: a symmetric positive semidefinite 2×2 matrix, in slopes².
 ///
-/// It is kept as a triangular factor, so that a degenerate Σ, of a line or of a point, stays positive
-/// semidefinite, and determinants of sums are sums of positive terms.
+/// It is kept as a triangular factor, so that a degenerate Σ, of a line or of a point, stays
+/// positive semidefinite, and determinants of sums are sums of positive terms.
 ///
 /// # Special cases
-/// Made of numbers that are not finite it is not finite itself; what is built from it then refuses it
-/// ([`Error::Covariance`]).
+/// Made of numbers that are not finite it is not finite itself; what is built from it then refuses
+/// it ([`Error::Covariance`]).
 ///
 /// # Example
 /// ```
@@ -75,7 +78,8 @@ impl<T: Real> Covariance<T> {
     /// The matrix [[xx, xy], [xy, yy]].
     ///
     /// # Errors
-    /// [`Error::Covariance`] unless it is finite and positive semidefinite; see [`nearest`](Self::nearest) for measured ones.
+    /// [`Error::Covariance`] unless it is finite and positive semidefinite; see
+    /// [`nearest`](Self::nearest) for measured ones.
     #[inline]
     pub fn new(xx: T, xy: T, yy: T) -> Result<Self, Error> {
         let [x, o, y] = [xx, xy, yy].map(T::to_f64);
@@ -86,10 +90,11 @@ impl<T: Real> Covariance<T> {
         Ok(Self::of(Gram { xx: x, xy: o, yy: y, root: Real::sqrt(determinant) * unit }))
     }
 
-    /// The positive semidefinite matrix of these entries, each limited to what its neighbours allow: negative
-    /// variances count as 0, and |xy| is at most √(xx yy).
+    /// The positive semidefinite matrix of these entries, each limited to what its neighbours
+    /// allow: negative variances count as 0, and |xy| is at most √(xx yy).
     ///
-    /// For moments of textures, whose difference E\[ttᵀ\] − E\[t\]E\[t\]ᵀ rounding can make negative.
+    /// For moments of textures, whose difference E\[ttᵀ\] − E\[t\]E\[t\]ᵀ rounding can make
+    /// negative.
     #[inline]
     #[must_use]
     pub fn nearest(xx: T, xy: T, yy: T) -> Self {
@@ -180,7 +185,8 @@ impl<T: Real> Covariance<T> {
         root * root
     }
 
-    /// The larger and the smaller eigenvalue, and the angle in (−π/2, π/2] of the direction of the larger.
+    /// The larger and the smaller eigenvalue, and the angle in (−π/2, π/2] of the direction of the
+    /// larger.
     #[must_use]
     pub fn principal(&self) -> [T; 3] {
         let [a, b, d] = self.factor();
@@ -222,8 +228,8 @@ impl<T: Real> Covariance<T> {
 
     /// Σ with both eigenvalues limited, the directions kept.
     ///
-    /// The usual limit κ of 2Σ ([`largest_kernel`]) is a limit of κ/2. A Σ that is not finite becomes `limit` in every
-    /// direction: the largest kernel, where nothing is known.
+    /// The usual limit κ of 2Σ ([`largest_kernel`]) is a limit of κ/2. A Σ that is not finite
+    /// becomes `limit` in every direction: the largest kernel, where nothing is known.
     #[must_use]
     pub fn clamped(&self, limit: T) -> Self {
         if !self.is_finite() {
@@ -236,8 +242,8 @@ impl<T: Real> Covariance<T> {
         if smallest >= limit {
             return Self::isotropic(limit);
         }
-        // limit·I for the larger eigenvalue, what is missing to the smaller one taken from the direction across:
-        // Σ' = f Σ + g I has the eigenvectors of Σ.
+        // limit·I for the larger eigenvalue, what is missing to the smaller one taken from the
+        // direction across: Σ' = f Σ + g I has the eigenvectors of Σ.
         let (l, s, limit) = (largest.to_f64(), smallest.to_f64(), limit.to_f64());
         let f = (limit - s) / (l - s);
         let g = s * (l - limit) / (l - s);

@@ -8,25 +8,27 @@ use crate::vector::{cross, minus, plus_scaled, unit_and_length, unit_step};
 
 /// The half vector of a point, an eye and a light, in a shading frame, and its first derivatives.
 ///
-/// H = T(i + o), with T the frame, i and o the unit directions to light and eye. Not normalised, it has the derivative
-/// dH = T d(i + o) − ω × H, where ω = (−dn·t, dn·s, twist) is the turn of the frame and
-/// di = −(d − i (i·d))/|l − x|, d = dx − dl, that of the direction to the light. Then
+/// H = T(i + o), with T the frame, i and o the unit directions to light and eye. Not normalised, it
+/// has the derivative dH = T d(i + o) − ω × H, where ω = (−dn·t, dn·s, twist) is the turn of the
+/// frame and di = −(d − i (i·d))/|l − x|, d = dx − dl, that of the direction to the light. Then
 ///
 /// - in slopes, h = −H.xy/H.z, and dh = −(dH.xy + h dH.z)/H.z with the sign of h here;
 /// - in the projected space, m = H/|H|, and dm.xy is that of (dH − m (m·dH))/|H|.
 ///
 /// Derivatives are by direction: a [`Motion`] says what moves, and a filter needs two of them
-/// ([`slope_footprint`](Self::slope_footprint), [`projected_footprint`](Self::projected_footprint)): per pixel, or the
-/// axes of a lens or of an area light.
+/// ([`slope_footprint`](Self::slope_footprint),
+/// [`projected_footprint`](Self::projected_footprint)): per pixel, or the axes of a lens or of an
+/// area light.
 ///
 /// # Special cases
-/// - **On the horizon**, H.z = 0, the projected half vector and its steps are finite; the slope is infinite or NaN and so are its
-///   steps. [`Footprint::clamped`] replaces such a footprint, filters refuse it
-///   ([`Error::Covariance`](crate::Error::Covariance)).
-/// - **Below it** everything is finite: slopes are those of −H, and their steps are exact. No microfacet looks there, D is 0,
-///   so there is nothing to filter: [`is_above_horizon`](Self::is_above_horizon).
-/// - **wi = −wo**: H = 0 has no direction. wm, projected, slope and all steps are NaN, and it is not above the horizon.
-///   Near it, H is rounding: a direction, but any.
+/// - **On the horizon**, H.z = 0, the projected half vector and its steps are finite; the slope is
+///   infinite or NaN and so are its steps. [`Footprint::clamped`] replaces such a footprint,
+///   filters refuse it ([`Error::Covariance`](crate::Error::Covariance)).
+/// - **Below it** everything is finite: slopes are those of −H, and their steps are exact. No
+///   microfacet looks there, D is 0, so there is nothing to filter:
+///   [`is_above_horizon`](Self::is_above_horizon).
+/// - **wi = −wo**: H = 0 has no direction. wm, projected, slope and all steps are NaN, and it is
+///   not above the horizon. Near it, H is rounding: a direction, but any.
 /// - **The point at the eye or at the light**: NaN, as for H = 0.
 ///
 /// Nothing panics.
@@ -58,7 +60,8 @@ use crate::vector::{cross, minus, plus_scaled, unit_and_length, unit_step};
 /// ```
 ///
 /// # References
-/// Kaplanyan, Hill, Patney and Lefohn 2016, Eqs. 3–6; Jakob and Marschner 2012, "Manifold exploration".
+/// Kaplanyan, Hill, Patney and Lefohn 2016, Eqs. 3–6; Jakob and Marschner 2012, "Manifold
+/// exploration".
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HalfVector<T: Real> {
     frame: Frame<T>,
@@ -84,8 +87,8 @@ impl<T: Real> HalfVector<T> {
         Self::at_distances(frame, wi.into(), light_distance, wo.into(), eye_distance)
     }
 
-    /// Of unit directions in world space, light and eye infinitely far: only the frame moves the half vector, and what a
-    /// motion says of the directions themselves.
+    /// Of unit directions in world space, light and eye infinitely far: only the frame moves the
+    /// half vector, and what a motion says of the directions themselves.
     ///
     /// It differs from the near field by terms of the order of one over the distances.
     #[inline]
@@ -94,8 +97,8 @@ impl<T: Real> HalfVector<T> {
         Self::at_distances(frame, wi, T::INFINITY, wo, T::INFINITY)
     }
 
-    /// Of unit directions in world space and distances, either of which may be infinite: `T::INFINITY` and a number for
-    /// the sun and a near eye.
+    /// Of unit directions in world space and distances, either of which may be infinite:
+    /// `T::INFINITY` and a number for the sun and a near eye.
     #[inline]
     #[must_use]
     pub fn at_distances(
@@ -183,8 +186,9 @@ impl<T: Real> HalfVector<T> {
         Footprint::new(self.projected_step(du), self.projected_step(dv))
     }
 
-    /// The papers' matrix M: the derivative of the slope by the point, on a surface whose normals are the frame's. The
-    /// columns are the steps for a point moving along the frame's x and y, the twist 0.
+    /// The papers' matrix M: the derivative of the slope by the point, on a surface whose normals
+    /// are the frame's. The columns are the steps for a point moving along the frame's x and y, the
+    /// twist 0.
     ///
     /// # Example
     /// ```

@@ -1,11 +1,12 @@
 //! Derivatives of the half vector, and of one description of it by another.
 //!
-//! A half vector m is a point of the sphere. Filters work in slopes t = (−m.x/m.z, −m.y/m.z), or on the disk of
-//! m.xy, the projected space. [`HalfVector`] has the derivatives of both by everything that moves the half vector; the
-//! Jacobians here take steps from one space to another ([`Footprint::transformed`](crate::filter::Footprint::transformed)).
+//! A half vector m is a point of the sphere. Filters work in slopes t = (−m.x/m.z, −m.y/m.z), or on
+//! the disk of m.xy, the projected space. [`HalfVector`] has the derivatives of both by everything
+//! that moves the half vector; the Jacobians here take steps from one space to another
+//! ([`Footprint::transformed`](crate::filter::Footprint::transformed)).
 //!
-//! Steps on the sphere are angles, along the great circle from the normal through m (radial, first column), and
-//! across it, towards n × m (tangential, second column).
+//! Steps on the sphere are angles, along the great circle from the normal through m (radial, first
+//! column), and across it, towards n × m (tangential, second column).
 //!
 //! | from | to | matrix | determinant | singular values |
 //! |---|---|---|---|---|
@@ -14,26 +15,29 @@
 //! | sphere | slopes | [`sphere_to_slope`] | 1/z³ | 1/z², 1/z |
 //!
 //! # References
-//! Tokuyoshi 2017, "Error reduction and simplification for shading anti-aliasing", §3 and Appendix B.
+//! Tokuyoshi 2017, "Error reduction and simplification for shading anti-aliasing", §3 and Appendix
+//! B.
 
 pub use super::half_vector::HalfVector;
 pub use super::motion::{Curvature, InterpolatedNormals, Motion};
 
 use crate::real::{Real, Vector};
 
-/// How much larger an error of the half vector's derivatives becomes in a space than it was on the sphere.
+/// How much larger an error of the half vector's derivatives becomes in a space than it was on the
+/// sphere.
 ///
-/// Derivatives by finite differences, as of a quad of pixels, are wrong by some angle per pixel. The Jacobian from the
-/// sphere makes of it an error in the space the filter works in: at most `largest` times the angle, at least
-/// `smallest` times. With the angle θ of the half vector from the normal, z = cos θ:
+/// Derivatives by finite differences, as of a quad of pixels, are wrong by some angle per pixel.
+/// The Jacobian from the sphere makes of it an error in the space the filter works in: at most
+/// `largest` times the angle, at least `smallest` times. With the angle θ of the half vector from
+/// the normal, z = cos θ:
 ///
 /// | space | largest | smallest |
 /// |---|---|---|
 /// | slopes | 1/z² | 1/z |
 /// | disk | 1 | z |
 ///
-/// So at θ = 80° errors of slopes are up to 33 times those on the sphere, while the disk never adds to them. `cargo run
-/// --release --example gallery` plots both.
+/// So at θ = 80° errors of slopes are up to 33 times those on the sphere, while the disk never adds
+/// to them. `cargo run --release --example gallery` plots both.
 ///
 /// # Example
 /// ```
@@ -93,8 +97,8 @@ fn azimuth<T: Real>(x: T, y: T) -> [T; 2] {
 
 /// The Jacobian from angles on the sphere, radial and tangential, to m.xy.
 ///
-/// [[cos φ · z, −sin φ], [sin φ · z, cos φ]], with φ the azimuth of `wm`. The paper divides by √(1 − z²), which loses
-/// all digits near the pole; here cos φ and sin φ come from m.xy.
+/// [[cos φ · z, −sin φ], [sin φ · z, cos φ]], with φ the azimuth of `wm`. The paper divides by √(1
+/// − z²), which loses all digits near the pole; here cos φ and sin φ come from m.xy.
 ///
 /// # Domain
 /// A unit vector.
@@ -126,8 +130,8 @@ pub fn sphere_to_disk<T: Real>(wm: impl Vector<3, Scalar = T>) -> T::Mat2 {
 
 /// The Jacobian from m.xy to slopes, ∂(−m.x/m.z, −m.y/m.z)/∂(m.x, m.y).
 ///
-/// −[[1 − y², xy], [xy, 1 − x²]]/z³, where 1 − y² is evaluated as z² + x². The determinant is 1/z⁴: for all half vectors
-/// off the normal the slope moves further than the point of the disk.
+/// −[[1 − y², xy], [xy, 1 − x²]]/z³, where 1 − y² is evaluated as z² + x². The determinant is 1/z⁴:
+/// for all half vectors off the normal the slope moves further than the point of the disk.
 ///
 /// # Domain
 /// A unit vector.
@@ -153,8 +157,8 @@ pub fn disk_to_slope<T: Real>(wm: impl Vector<3, Scalar = T>) -> T::Mat2 {
 
 /// The Jacobian from angles on the sphere, radial and tangential, to slopes.
 ///
-/// −[[cos φ, −sin φ · z], [sin φ, cos φ · z]]/z², with φ the azimuth of `wm`: [`disk_to_slope`] · [`sphere_to_disk`]. The
-/// determinant is 1/z³.
+/// −[[cos φ, −sin φ · z], [sin φ, cos φ · z]]/z², with φ the azimuth of `wm`: [`disk_to_slope`] ·
+/// [`sphere_to_disk`]. The determinant is 1/z³.
 ///
 /// # Domain
 /// A unit vector.

@@ -5,17 +5,20 @@ use crate::real::{Real, Vector};
 use crate::vector::dot;
 use crate::vector::{cross, minus, plus_scaled, unit_and_length, unit_step};
 
-/// A first-order change of what a half vector depends on: derivatives by any one parameter, in world space.
+/// A first-order change of what a half vector depends on: derivatives by any one parameter, in
+/// world space.
 ///
-/// The parameter may be a pixel's coordinate, a lens's or a light's, time, or a length along the surface. What is not
-/// named stays: `Motion { point, normal, ..Motion::default() }`.
+/// The parameter may be a pixel's coordinate, a lens's or a light's, time, or a length along the
+/// surface. What is not named stays: `Motion { point, normal, ..Motion::default() }`.
 ///
-/// Where does the derivative of the normal come from? From [`Curvature`], from [`InterpolatedNormals`], from a normal
-/// map ([`perturbed`](Self::perturbed)), or by the differences of a [`Quad`](crate::filter::quad::Quad).
+/// Where does the derivative of the normal come from? From [`Curvature`], from
+/// [`InterpolatedNormals`], from a normal map ([`perturbed`](Self::perturbed)), or by the
+/// differences of a [`Quad`](crate::filter::quad::Quad).
 ///
-/// **The twist** is how fast the tangents turn about the normal, in radians, positive from x to y. It turns slopes and
-/// their steps alike, so it does not matter to an isotropic surface: leave it 0, which is parallel transport. An
-/// anisotropic surface whose tangents follow a texture has the twist of [`with_tangent`](Self::with_tangent).
+/// **The twist** is how fast the tangents turn about the normal, in radians, positive from x to y.
+/// It turns slopes and their steps alike, so it does not matter to an isotropic surface: leave it
+/// 0, which is parallel transport. An anisotropic surface whose tangents follow a texture has the
+/// twist of [`with_tangent`](Self::with_tangent).
 ///
 /// # Example
 /// ```
@@ -36,10 +39,11 @@ pub struct Motion<T: Real> {
     pub eye: T::Vec3,
     /// Of the point on the light. Without effect where it is infinitely far.
     pub light: T::Vec3,
-    /// Of the direction to the light, in addition to what point and light do to it: of a light at infinity.
+    /// Of the direction to the light, in addition to what point and light do to it: of a light at
+    /// infinity.
     pub wi: T::Vec3,
-    /// Of the direction to the eye, in addition to what point and eye do to it: of an eye at infinity, or minus
-    /// the derivative of the direction of a ray that came by mirrors.
+    /// Of the direction to the eye, in addition to what point and eye do to it: of an eye at
+    /// infinity, or minus the derivative of the direction of a ray that came by mirrors.
     pub wo: T::Vec3,
     /// Of the unit shading normal.
     pub normal: T::Vec3,
@@ -57,7 +61,8 @@ impl<T: Real> Default for Motion<T> {
 }
 
 impl<T: Real> Motion<T> {
-    /// How the frame turns: ω in its own coordinates, so that the derivative of a fixed vector v in them is −ω × v.
+    /// How the frame turns: ω in its own coordinates, so that the derivative of a fixed vector v in
+    /// them is −ω × v.
     #[inline]
     pub(super) fn turn(&self, frame: &Frame<T>) -> [T; 3] {
         let [s, t, _]: [T; 3] = frame.to_local(self.normal).into();
@@ -65,9 +70,11 @@ impl<T: Real> Motion<T> {
     }
 
     /// With the twist of the frame whose x axis is the part of `tangent` across the normal
-    /// ([`Frame::from_normal_and_tangent`]), where the tangent changes by `step` and the normal as set here.
+    /// ([`Frame::from_normal_and_tangent`]), where the tangent changes by `step` and the normal as
+    /// set here.
     ///
-    /// `tangent` is the derivative of the point by a texture coordinate, for a texture's frame. Set the normal first.
+    /// `tangent` is the derivative of the point by a texture coordinate, for a texture's frame. Set
+    /// the normal first.
     ///
     /// # Special cases
     /// A tangent along the normal has no direction across it: the twist is infinite or NaN.
@@ -76,16 +83,17 @@ impl<T: Real> Motion<T> {
     pub fn with_tangent(self, frame: &Frame<T>, tangent: T::Vec3, step: T::Vec3) -> Self {
         let [[x, _, z], [_, y_step, _], [_, y_normal, _]]: [[T; 3]; 3] =
             [tangent, step, self.normal].map(|v| frame.to_local(v).into());
-        // x̂ = v⊥/|v⊥| with v⊥ = v − n (n·v), |v⊥| = x: along y its derivative is (dv − dn (n·v))·ŷ/|v⊥|.
+        // x̂ = v⊥/|v⊥| with v⊥ = v − n (n·v), |v⊥| = x: along y its derivative is (dv − dn
+        // (n·v))·ŷ/|v⊥|.
         Self { twist: (y_step - y_normal * z) / x, ..self }
     }
 
     /// The motion of a normal-mapped frame on this one.
     ///
-    /// The map's normal in the frame `base`, of any length, is `m` and changes by `step`, by the chain rule: for a map
-    /// over texture coordinates, ∂m/∂u du + ∂m/∂v dv. This motion is that of `base`; in the new one the normal is that of the map,
-    /// and the twist that of the frame whose x axis is the part of `base`'s across it
-    /// ([`Frame::from_normal_and_tangent`]).
+    /// The map's normal in the frame `base`, of any length, is `m` and changes by `step`, by the
+    /// chain rule: for a map over texture coordinates, ∂m/∂u du + ∂m/∂v dv. This motion is that of
+    /// `base`; in the new one the normal is that of the map, and the twist that of the frame whose
+    /// x axis is the part of `base`'s across it ([`Frame::from_normal_and_tangent`]).
     ///
     /// # Special cases
     /// m = 0 gives NaN; m along `base`'s x axis a twist that is infinite or NaN.
@@ -114,10 +122,11 @@ impl<T: Real> Motion<T> {
     }
 }
 
-/// The curvature of a surface at a point, the symmetric matrix of its shape operator in a frame's x and y.
+/// The curvature of a surface at a point, the symmetric matrix of its shape operator in a frame's x
+/// and y.
 ///
-/// It takes a step along the surface to the step of its unit normal. Positive where the surface bends away from the
-/// normal: 1/R on the outside of a sphere. In units of 1/length.
+/// It takes a step along the surface to the step of its unit normal. Positive where the surface
+/// bends away from the normal: 1/R on the outside of a sphere. In units of 1/length.
 ///
 /// # References
 /// do Carmo 1976, "Differential Geometry of Curves and Surfaces", §3.2, with the other sign.
@@ -136,8 +145,8 @@ impl<T: Real> Curvature<T> {
         Self { xx, xy, yy }
     }
 
-    /// Principal curvatures: `first` along `direction`, a unit vector of the tangent plane in the frame's x and y, and
-    /// `second` across it.
+    /// Principal curvatures: `first` along `direction`, a unit vector of the tangent plane in the
+    /// frame's x and y, and `second` across it.
     #[inline]
     #[must_use]
     pub fn principal(first: T, second: T, direction: T::Vec2) -> Self {
@@ -215,8 +224,8 @@ impl<T: Real> InterpolatedNormals<T> {
         unit_and_length(self.sum(barycentric)).0.into()
     }
 
-    /// The derivative of the barycentric coordinates where the point moves by `point_step`, of which only the part in
-    /// the plane of the triangle counts.
+    /// The derivative of the barycentric coordinates where the point moves by `point_step`, of
+    /// which only the part in the plane of the triangle counts.
     #[inline]
     #[must_use]
     pub fn barycentric_step(&self, point_step: T::Vec3) -> [T; 3] {

@@ -5,12 +5,15 @@ use crate::real::{Real, Vector};
 
 /// The values of some vector in four neighbouring pixels, two by two.
 ///
-/// For what has no derivatives in closed form, or none that are cheaper: the vector is computed for four pixels and
-/// subtracted. N = 2 for half vectors, in slopes or projected, which make a [`Footprint`]; N = 3 for normals.
+/// For what has no derivatives in closed form, or none that are cheaper: the vector is computed for
+/// four pixels and subtracted. N = 2 for half vectors, in slopes or projected, which make a
+/// [`Footprint`]; N = 3 for normals.
 ///
-/// The error is of the first order in the size of a pixel. It is half the second derivative for a pixel of the quad: seldom
-/// small where a footprint is large, hence the [limits](Footprint::clamped), and the biased but steadier
-/// [bounds](Footprint::covariance_of_bounds). Where pixels of a quad see different surfaces the differences are wrong altogether.
+/// The error is of the first order in the size of a pixel. It is half the second derivative for a
+/// pixel of the quad: seldom small where a footprint is large, hence the
+/// [limits](Footprint::clamped), and the biased but steadier
+/// [bounds](Footprint::covariance_of_bounds). Where pixels of a quad see different surfaces the
+/// differences are wrong altogether.
 ///
 /// # Example
 /// ```
@@ -43,16 +46,19 @@ impl<T: Real, const N: usize> Quad<T, N> {
         core::array::from_fn(|i| self.values[to][i] - self.values[from][i])
     }
 
-    /// The steps per pixel along u and v, one pair for the quad, taken at (0, 0): `ddx_coarse`, `ddy_coarse`.
+    /// The steps per pixel along u and v, one pair for the quad, taken at (0, 0): `ddx_coarse`,
+    /// `ddy_coarse`.
     #[inline]
     #[must_use]
     pub fn coarse(&self) -> [[T; N]; 2] {
         [self.difference(1, 0), self.difference(2, 0)]
     }
 
-    /// The steps per pixel along u and v at a pixel, along its row and its column: `ddx_fine`, `ddy_fine`.
+    /// The steps per pixel along u and v at a pixel, along its row and its column: `ddx_fine`,
+    /// `ddy_fine`.
     ///
-    /// Only the parity of the pixel's coordinates counts, so those of the picture will do where quads begin at even ones.
+    /// Only the parity of the pixel's coordinates counts, so those of the picture will do where
+    /// quads begin at even ones.
     #[inline]
     #[must_use]
     pub fn fine(&self, [u, v]: [usize; 2]) -> [[T; N]; 2] {

@@ -1,7 +1,8 @@
 //! What a pixel covers on a surface, by ray differentials.
 //!
-//! The derivative of a ray by the pixel's coordinates, moved along it to the surface, is the step of the point that is
-//! seen. With it a [`HalfVector`](crate::filter::jacobian::HalfVector) has its footprint.
+//! The derivative of a ray by the pixel's coordinates, moved along it to the surface, is the step
+//! of the point that is seen. With it a [`HalfVector`](crate::filter::jacobian::HalfVector) has its
+//! footprint.
 //!
 //! # References
 //! Igehy 1999, "Tracing ray differentials"; Kaplanyan, Hill, Patney and Lefohn 2016, §4.2.
@@ -12,8 +13,8 @@ use crate::vector::{minus, plus_scaled, unit_and_length, unit_step};
 
 /// The derivatives of a ray, of its origin and of its unit direction, by two parameters u and v.
 ///
-/// Per pixel in most uses. Sampled s times per pixel, a ray stands for 1/√s of it in each direction:
-/// [`Footprint::scaled`](crate::filter::Footprint::scaled).
+/// Per pixel in most uses. Sampled s times per pixel, a ray stands for 1/√s of it in each
+/// direction: [`Footprint::scaled`](crate::filter::Footprint::scaled).
 ///
 /// # Example
 /// ```
@@ -40,8 +41,8 @@ pub struct RayDifferential<T: Real> {
 }
 
 impl<T: Real> RayDifferential<T> {
-    /// Of rays from one point, through a picture plane: the direction, of any length, and its derivatives before it
-    /// is normalised.
+    /// Of rays from one point, through a picture plane: the direction, of any length, and its
+    /// derivatives before it is normalised.
     ///
     /// For d = forward + u·right + v·up they are `right` and `up`, scaled to a pixel.
     ///
@@ -64,8 +65,8 @@ impl<T: Real> RayDifferential<T> {
         Self::of_unnormalised([zero, zero], direction.into(), [direction_du, direction_dv])
     }
 
-    /// Of the rays of a thin lens, by the pixel, the point on the lens fixed: its `lens` is from the centre of the lens, all
-    /// else is as for [`pinhole`](Self::pinhole).
+    /// Of the rays of a thin lens, by the pixel, the point on the lens fixed: its `lens` is from
+    /// the centre of the lens, all else is as for [`pinhole`](Self::pinhole).
     ///
     /// # Special cases
     /// As for a direction of 0 where the point on the lens is in focus: NaN.
@@ -87,11 +88,12 @@ impl<T: Real> RayDifferential<T> {
         Self::of_unnormalised([zero, zero], focus.seen_from(lens, direction), steps)
     }
 
-    /// Of the rays of a thin lens, by the point on the lens, the pixel fixed: `lens` from the centre of the lens, and its
-    /// derivatives along two axes.
+    /// Of the rays of a thin lens, by the point on the lens, the pixel fixed: `lens` from the
+    /// centre of the lens, and its derivatives along two axes.
     ///
-    /// Moved onto a surface these are the circle of confusion, nothing at the plane in focus. The eye of a half
-    /// vector moves with it: [`Motion::eye`](crate::filter::jacobian::Motion::eye) = `lens_du`.
+    /// Moved onto a surface these are the circle of confusion, nothing at the plane in focus. The
+    /// eye of a half vector moves with it: [`Motion::eye`](crate::filter::jacobian::Motion::eye) =
+    /// `lens_du`.
     #[inline]
     #[must_use]
     pub fn across_lens(
@@ -115,7 +117,8 @@ impl<T: Real> RayDifferential<T> {
         Self { origin_du, origin_dv, direction_du, direction_dv }
     }
 
-    /// Of the ray that starts further along, after a fixed `distance`: the origins move with the directions.
+    /// Of the ray that starts further along, after a fixed `distance`: the origins move with the
+    /// directions.
     ///
     /// # References
     /// Igehy 1999, Eq. 10 without the change of the distance.
@@ -132,12 +135,14 @@ impl<T: Real> RayDifferential<T> {
         }
     }
 
-    /// The steps of the point where the ray of this unit direction meets a surface, after `distance`: vectors in its tangent
-    /// plane, whose `normal` is the geometric one, of any length and either side.
+    /// The steps of the point where the ray of this unit direction meets a surface, after
+    /// `distance`: vectors in its tangent plane, whose `normal` is the geometric one, of any length
+    /// and either side.
     ///
     /// # Special cases
-    /// A ray that grazes, direction·normal = 0, gives steps that are infinite or NaN: the pixel covers the whole plane. A
-    /// footprint of them is clamped or refused as others that are not finite.
+    /// A ray that grazes, direction·normal = 0, gives steps that are infinite or NaN: the pixel
+    /// covers the whole plane. A footprint of them is clamped or refused as others that are not
+    /// finite.
     ///
     /// # References
     /// Igehy 1999, Eqs. 10–12.
@@ -154,7 +159,8 @@ impl<T: Real> RayDifferential<T> {
     }
 }
 
-/// The plane that a thin lens shows sharp: across the axis of the lens, at a distance from its centre.
+/// The plane that a thin lens shows sharp: across the axis of the lens, at a distance from its
+/// centre.
 ///
 /// Directions of pixels are those through the centre of the lens.
 ///
@@ -187,7 +193,8 @@ impl<T: Real> FocusPlane<T> {
         Self { axis: axis.components().into(), distance }
     }
 
-    /// The unit direction from a point on the lens to what it shows sharp for a pixel's direction: that of the ray.
+    /// The unit direction from a point on the lens to what it shows sharp for a pixel's direction:
+    /// that of the ray.
     #[inline]
     #[must_use]
     pub fn direction(&self, lens: T::Vec3, direction: T::Vec3) -> T::Vec3 {

@@ -8,7 +8,8 @@ use crate::elementary::{erf, erfc, exp_neg_square};
 use crate::filter::MeanOverParallelogram;
 use crate::filter::means::ggx::GAUSS;
 
-/// Gauss–Legendre nodes on [−1, 1], the positive ones, and weights that add up to ½: eight points, …
+/// Gauss–Legendre nodes on [−1, 1], the positive ones, and weights that add up to ½: eight points,
+/// …
 const FEW: [[f64; 2]; 4] = [
     [0.18343464249564980494, 0.18134189168918099148],
     [0.52553240991632898582, 0.15685332293894364367],
@@ -34,7 +35,8 @@ const MANY: [[f64; 2]; 12] = [
 const SHORT: f64 = 2.0;
 /// The longest piece for twenty-four points.
 const LONG: f64 = 10.0;
-/// What lies this much farther from the origin, in squares, than the nearest of all is below 2e-10 of it.
+/// What lies this much farther from the origin, in squares, than the nearest of all is below 2e-10
+/// of it.
 const NEGLIGIBLE: f64 = 22.5;
 /// e^{−x²} of numbers whose square is beyond this is 0.
 const VANISHES: f64 = 746.0;
@@ -77,9 +79,9 @@ pub(super) fn mean_within(x: f64, half: f64) -> f64 {
 
 /// The mean of e^{−|t|²}/π over `centre` ± ½u ± ½v.
 ///
-/// Along the longer edge it is a difference of error functions. Across it is Gauss's rule, on the part
-/// where the density is not negligible. A long edge that is not across the other makes that part flat
-/// in the middle and steep at both ends: then it is cut into three.
+/// Along the longer edge it is a difference of error functions. Across it is Gauss's rule, on the
+/// part where the density is not negligible. A long edge that is not across the other makes that
+/// part flat in the middle and steep at both ends: then it is cut into three.
 pub(super) fn mean(centre: [f64; 2], u: [f64; 2], v: [f64; 2]) -> f64 {
     let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
     let (u, v) = if dot(u, u) < dot(v, v) { (v, u) } else { (u, v) };
@@ -160,8 +162,9 @@ impl Across {
     fn seen(&self) -> Option<Seen> {
         let ([x, y], [dx, dy], half) = (self.at, self.step, self.half);
         let squared = dx * dx + dy * dy;
-        // The squared distance is a parabola in pieces. Its least is where the line crosses an axis or an
-        // end of the edge, where the distance from an end is least, or at the ends of the shorter edge.
+        // The squared distance is a parabola in pieces. Its least is where the line crosses an axis
+        // or an end of the edge, where the distance from an end is least, or at the ends of the
+        // shorter edge.
         let candidates = [
             -y / dy,
             (half - x) / dx,
@@ -183,8 +186,8 @@ impl Across {
         if squared == 0.0 {
             return Some(Seen { first: -0.5, last: 0.5, least });
         }
-        // The points nearer than this to the edge's image are a rectangle and two discs at its ends. The
-        // line crosses each of them in an interval; together these are one.
+        // The points nearer than this to the edge's image are a rectangle and two discs at its
+        // ends. The line crosses each of them in an interval; together these are one.
         let reach2 = least + NEGLIGIBLE;
         let disc = |x: f64| {
             let distance = (x * dy - y * dx) / Real::sqrt(squared);

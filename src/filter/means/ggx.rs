@@ -82,14 +82,16 @@ pub(super) fn mean(centre: Point, u: Point, v: Point) -> f64 {
     if area * area <= THIN * THIN * scale2 * (length * length) {
         return over_lines(centre, u, v, length);
     }
-    // Counter-clockwise. Opposite edges are as far apart as they are, to the last digit, though their distances from the
-    // origin may be much larger: for a thin parallelogram the sum depends on it.
+    // Counter-clockwise. Opposite edges are as far apart as they are, to the last digit, though
+    // their distances from the origin may be much larger: for a thin parallelogram the sum depends
+    // on it.
     let (v, area) = if area < 0.0 { ([-v[0], -v[1]], -area) } else { (v, area) };
     let a = plus(plus(centre, -0.5, u), -0.5, v);
     let (b, d) = (plus(a, 1.0, u), plus(a, 1.0, v));
     let c = plus(b, 1.0, v);
     let across_u = cross(centre, u);
-    // centre × v with v as its parts along and across u: edges that nearly coincide then do so in distance too.
+    // centre × v with v as its parts along and across u: edges that nearly coincide then do so in
+    // distance too.
     let across_v = (dot(u, v) * across_u + area * dot(centre, u)) / (length * length);
     let around = |flux: fn(Edge) -> f64| {
         let along_u = flux(Edge { p: a, q: b, step: u, moment: 0.5 * area + across_u })
@@ -140,8 +142,9 @@ fn over_points(centre: Point, u: Point, v: Point) -> f64 {
 
 /// The mean over a parallelogram so thin that it is a line, u its longer edge.
 ///
-/// Seen along u it is as wide as its overlap with itself: growing over the length k of v along u, constant, shrinking
-/// over k. In each part the middle of its width is a straight line, and what P22 varies across it is of second order.
+/// Seen along u it is as wide as its overlap with itself: growing over the length k of v along u,
+/// constant, shrinking over k. In each part the middle of its width is a straight line, and what
+/// P22 varies across it is of second order.
 #[inline]
 fn over_lines(centre: Point, u: Point, v: Point, length: f64) -> f64 {
     let along = dot(u, v) / length;
@@ -198,8 +201,9 @@ impl Line {
 
     /// ∫ (p² + s²)⁻² ds = ½ [s/(p² (p² + s²)) + atan(s/p)/p³].
     ///
-    /// Far along the line both terms nearly cancel. With x the tangent of the angle under which the line is seen, what the
-    /// first and x/p³ have in common is taken out: left are a quotient of positive terms and x − atan x.
+    /// Far along the line both terms nearly cancel. With x the tangent of the angle under which the
+    /// line is seen, what the first and x/p³ have in common is taken out: left are a quotient of
+    /// positive terms and x − atan x.
     #[inline]
     fn integral(&self) -> f64 {
         let p = Real::sqrt(self.p2);
@@ -262,12 +266,14 @@ impl Edge {
         distance / w * atan2(length * w, 1.0 + dot(self.p, self.q)) / TAU
     }
 
-    /// The flux of t/(2π|t|²(1 + |t|²)), whose divergence is −P22 but for the origin, out through the same edge.
+    /// The flux of t/(2π|t|²(1 + |t|²)), whose divergence is −P22 but for the origin, out through
+    /// the same edge.
     ///
-    /// It is d/(2π) ∫ ds/(r²(1 + r²)), r² = d² + s²: a difference of two angles, atan(s/d) and atan(s/p)·d/p, p² = 1 + d²,
-    /// which nearly agree far from the origin. Across the line of sight, what they differ by is the angle of tangent
-    /// s/((p + d)(d p + s²)), and 1/(p (p + d)) of the second; along it, their tangents have a quotient of products in common
-    /// and what is left is x − atan x of both.
+    /// It is d/(2π) ∫ ds/(r²(1 + r²)), r² = d² + s²: a difference of two angles, atan(s/d) and
+    /// atan(s/p)·d/p, p² = 1 + d², which nearly agree far from the origin. Across the line of
+    /// sight, what they differ by is the angle of tangent s/((p + d)(d p + s²)), and 1/(p (p + d))
+    /// of the second; along it, their tangents have a quotient of products in common and what is
+    /// left is x − atan x of both.
     #[inline]
     fn flux_from_infinity(self) -> f64 {
         let length = Real::sqrt(dot(self.step, self.step));

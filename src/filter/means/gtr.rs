@@ -12,17 +12,19 @@ const WEIGHTS: [f64; 3] = [0.46791393457269104739, 0.36076157304813860757, 0.171
 
 /// The longest side of a cell in units of its scale.
 const SIDE: f64 = 1.0;
-/// Splitting in turns needs a stack no deeper than the splits of one path: 2 × 30 for a ratio of 1e9.
+/// Splitting in turns needs a stack no deeper than the splits of one path: 2 × 30 for a ratio of
+/// 1e9.
 const DEPTH: usize = 80;
-/// So that edges of one direction and of 1e6 scales and more, whose cells all lie on one line, come to an end.
+/// So that edges of one direction and of 1e6 scales and more, whose cells all lie on one line, come
+/// to an end.
 const MOST_SPLITS: u32 = 1 << 20;
 
 impl<T: Real, K: Masking<T>> MeanOverParallelogram<T> for Gtr<T, K>
 where
     Self: Profile<T>,
 {
-    /// (1 + r²)^{γ−2}/(α² + r²)^γ has its nearest singularities at r = ±iα. Far out it falls as r⁻⁴ for
-    /// every γ.
+    /// (1 + r²)^{γ−2}/(α² + r²)^γ has its nearest singularities at r = ±iα. Far out it falls as r⁻⁴
+    /// for every γ.
     fn mean_over_parallelogram(&self, centre: [f64; 2], u: [f64; 2], v: [f64; 2]) -> f64 {
         let alpha = self.alpha().to_f64();
         let steepness = 1.0 / Real::sqrt(1.0 + self.gamma().to_f64().max(2.0));
@@ -48,8 +50,9 @@ struct Cell {
 
 /// The mean of f over `centre` ± ½u ± ½v.
 ///
-/// `scale(r)` is the distance on which f varies at the distance r from the origin, growing with r. Cells are halved until
-/// their sides are no longer than that; six points in either direction then leave a relative error below 1e-9.
+/// `scale(r)` is the distance on which f varies at the distance r from the origin, growing with r.
+/// Cells are halved until their sides are no longer than that; six points in either direction then
+/// leave a relative error below 1e-9.
 pub(super) fn mean(
     centre: [f64; 2],
     u: [f64; 2],

@@ -1,17 +1,21 @@
-//! Means of distributions over polygons of slopes, exactly: filtering over the parallelogram of a footprint.
+//! Means of distributions over polygons of slopes, exactly: filtering over the parallelogram of a
+//! footprint.
 //!
-//! The mean of P22 over the slopes that the half vectors of a pixel cover is what a box filter over the pixel sees, to
-//! first order (Kaplanyan et al. 2016, Eq. 11). For GGX it has a closed form over every polygon. P22 of the unit GGX,
-//! 1/(π(1 + |t|²)²), is the differential form factor between a point and the plane at distance 1, t the position in
-//! that plane: so its integral over a polygon is Lambert's form factor of the polygon, a sum over its edges,
+//! The mean of P22 over the slopes that the half vectors of a pixel cover is what a box filter over
+//! the pixel sees, to first order (Kaplanyan et al. 2016, Eq. 11). For GGX it has a closed form
+//! over every polygon. P22 of the unit GGX, 1/(π(1 + |t|²)²), is the differential form factor
+//! between a point and the plane at distance 1, t the position in that plane: so its integral over
+//! a polygon is Lambert's form factor of the polygon, a sum over its edges,
 //!
-//! ∫ P22 = 1/(2π) Σ d/√(1+d²) Θ,  Θ the angle under which an edge is seen, d its distance from the origin of slopes,
+//! ∫ P22 = 1/(2π) Σ d/√(1+d²) Θ, Θ the angle under which an edge is seen, d its distance from the
+//! origin of slopes,
 //!
-//! and any roughness matrix or map is a linear change of the vertices. Loubet, Zeltner, Holzschuch and Jakob 2020 use
-//! the same identity for specular next-event estimation.
+//! and any roughness matrix or map is a linear change of the vertices. Loubet, Zeltner, Holzschuch
+//! and Jakob 2020 use the same identity for specular next-event estimation.
 //!
-//! The sum cancels: for a small polygon like its size, far from the highlight like the cube of the distance, for a thin
-//! one like its width. [`mean_p22`] therefore has five forms; each takes over where another would lose digits:
+//! The sum cancels: for a small polygon like its size, far from the highlight like the cube of the
+//! distance, for a thin one like its width. [`mean_p22`] therefore has five forms; each takes over
+//! where another would lose digits:
 //!
 //! | footprint | form | error at the switch |
 //! |---|---|---|
@@ -21,10 +25,11 @@
 //! | near the highlight | Lambert's formula | 1e-11 |
 //! | far from it | the same of a field that vanishes at infinity instead of at the origin | 1e-11 |
 //!
-//! ℓ² = 1 + (distance of the parallelogram from the highlight)² in units of α. A point is a footprint too: its mean is P22.
+//! ℓ² = 1 + (distance of the parallelogram from the highlight)² in units of α. A point is a
+//! footprint too: its mean is P22.
 //!
-//! Beckmann is integrated by error functions along the longer edge and Gauss's rule across; GTR by the product rule on as
-//! many cells as its own ℓ asks for.
+//! Beckmann is integrated by error functions along the longer edge and Gauss's rule across; GTR by
+//! the product rule on as many cells as its own ℓ asks for.
 
 use crate::Ggx;
 use crate::Real;
@@ -41,22 +46,22 @@ use crate::microsurface::Microsurface;
 /// Any parallelogram, degenerate ones included: a line, a point.
 ///
 /// # Special cases
-/// Edges or a slope that are not finite, as at half vectors on the horizon, or beyond 1e70 α → 0: the mean over all slopes.
-/// NaN → NaN.
-/// [`Footprint::clamped`](crate::filter::Footprint::clamped) gives finite edges.
+/// Edges or a slope that are not finite, as at half vectors on the horizon, or beyond 1e70 α → 0:
+/// the mean over all slopes. NaN → NaN. [`Footprint::clamped`](crate::filter::Footprint::clamped)
+/// gives finite edges.
 ///
 /// # Accuracy
-/// Evaluated in f64 for both scalars, for edges from 1e-8 to 1e5 α and slopes out to 1e4 α. The largest
-/// relative errors found over random footprints: GGX 1.3e-11, and 5e-11 for thin parallelograms whose
-/// edges have nearly one direction; Beckmann 8e-10; GTR 1e-9, for edges up to 1e3. GTR over edges of
-/// nearly one direction beyond 1e4 of its width has fewer digits.
+/// Evaluated in f64 for both scalars, for edges from 1e-8 to 1e5 α and slopes out to 1e4 α. The
+/// largest relative errors found over random footprints: GGX 1.3e-11, and 5e-11 for thin
+/// parallelograms whose edges have nearly one direction; Beckmann 8e-10; GTR 1e-9, for edges up to
+/// 1e3. GTR over edges of nearly one direction beyond 1e4 of its width has fewer digits.
 ///
 /// # Cost
 /// GGX: four arcus tangents, or 25 points where the footprint is small against α. Beckmann: 8 to 72
-/// points of two error functions each, 24 where the footprint is larger than α, none where the density
-/// is 0: 5,000 to 9,000 instructions for square footprints, 5 to 9 times GGX. [`Microsurface::filtered`] is the
-/// cheap way. GTR: 36 densities per cell. The number of
-/// cells grows with the logarithm of the edges over α; for edges of nearly one direction it grows with
+/// points of two error functions each, 24 where the footprint is larger than α, none where the
+/// density is 0: 5,000 to 9,000 instructions for square footprints, 5 to 9 times GGX.
+/// [`Microsurface::filtered`] is the cheap way. GTR: 36 densities per cell. The number of cells
+/// grows with the logarithm of the edges over α; for edges of nearly one direction it grows with
 /// the edges themselves, up to a million.
 ///
 /// # Example
@@ -100,8 +105,8 @@ where
 /// A number in [0, 1].
 ///
 /// # Accuracy
-/// Absolute 1e-16 times the number of vertices, so of small or distant polygons few digits are right:
-/// [`mean_p22`] is for those.
+/// Absolute 1e-16 times the number of vertices, so of small or distant polygons few digits are
+/// right: [`mean_p22`] is for those.
 ///
 /// # Example
 /// ```
@@ -113,7 +118,8 @@ where
 /// ```
 ///
 /// # References
-/// Lambert 1760; Loubet, Zeltner, Holzschuch and Jakob 2020, "Slope-space integrals for specular next event estimation".
+/// Lambert 1760; Loubet, Zeltner, Holzschuch and Jakob 2020, "Slope-space integrals for specular
+/// next event estimation".
 #[must_use]
 pub fn integral_p22<M: Map>(
     surface: &Microsurface<Ggx, M>,

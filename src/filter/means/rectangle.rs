@@ -1,8 +1,10 @@
 //! Means of distributions over boxes of slopes.
 //!
-//! The bounding rectangle of a footprint ([`Footprint::extents`](crate::filter::Footprint::extents)) covers more than the
-//! half vectors of the pixel: highlights come out wider than they are, and steadier where normals are poor. The mean
-//! over the parallelogram itself, [`polygon::mean_p22`](crate::filter::polygon::mean_p22), costs the same.
+//! The bounding rectangle of a footprint
+//! ([`Footprint::extents`](crate::filter::Footprint::extents)) covers more than the half vectors of
+//! the pixel: highlights come out wider than they are, and steadier where normals are poor. The
+//! mean over the parallelogram itself, [`polygon::mean_p22`](crate::filter::polygon::mean_p22),
+//! costs the same.
 
 use crate::Real;
 use crate::filter::MeanOverParallelogram;
@@ -12,7 +14,8 @@ use crate::microsurface::Microsurface;
 
 /// The mean of P22 over the box `slope` ± `half_extents`, along the axes of the frame.
 ///
-/// That of [`polygon::mean_p22`](crate::filter::polygon::mean_p22); for Beckmann surfaces along the axes a product of differences of error functions.
+/// That of [`polygon::mean_p22`](crate::filter::polygon::mean_p22); for Beckmann surfaces along the
+/// axes a product of differences of error functions.
 ///
 /// # Domain
 /// Any box, a line or a point too; the signs of the extents do not matter.
@@ -21,7 +24,8 @@ use crate::microsurface::Microsurface;
 /// As of [`polygon::mean_p22`](crate::filter::polygon::mean_p22).
 ///
 /// # Accuracy
-/// Evaluated in f64 for both scalars. GGX and GTR: that of [`polygon::mean_p22`](crate::filter::polygon::mean_p22); Beckmann: relative 2e-14 (1 + t²) of a
+/// Evaluated in f64 for both scalars. GGX and GTR: that of
+/// [`polygon::mean_p22`](crate::filter::polygon::mean_p22); Beckmann: relative 2e-14 (1 + t²) of a
 /// slope t in units of α.
 ///
 /// # Example
@@ -35,8 +39,8 @@ use crate::microsurface::Microsurface;
 /// ```
 ///
 /// # References
-/// Kaplanyan, Hill, Patney and Lefohn 2016, Eq. 16 and Appendix A, whose integral from h − Δ to h + Δ is divided by a
-/// quarter of that area: as printed it is 4 times the mean.
+/// Kaplanyan, Hill, Patney and Lefohn 2016, Eq. 16 and Appendix A, whose integral from h − Δ to h +
+/// Δ is divided by a quarter of that area: as printed it is 4 times the mean.
 #[must_use]
 pub fn mean_p22<P, M>(
     surface: &Microsurface<P, M>,

@@ -4,11 +4,12 @@ use crate::alpha::checked;
 use crate::error::Error;
 use crate::real::{Real, Vector};
 
-/// The variance of slopes in each direction by the length of an average N of unit normals: (1 − |N|)/|N|.
+/// The variance of slopes in each direction by the length of an average N of unit normals: (1
+/// − |N|)/|N|.
 ///
-/// Of normals spread by σ in each direction, |N| is 1/(1 + σ²) to second order in σ. It knows of no direction, and in slopes it is
-/// that about the average normal, without the factor of a tilt; [`Moments`](super::Moments) know both. The two agree to σ² for isotropic spread
-/// about z.
+/// Of normals spread by σ in each direction, |N| is 1/(1 + σ²) to second order in σ. It knows of no
+/// direction, and in slopes it is that about the average normal, without the factor of a tilt;
+/// [`Moments`](super::Moments) know both. The two agree to σ² for isotropic spread about z.
 ///
 /// # Domain
 /// `average_normal`: not normalised; of an image, after decoding and before anything else.
@@ -17,8 +18,8 @@ use crate::real::{Real, Vector};
 /// |N| ≥ 1 → 0: rounding alone makes an average longer than its terms. N = 0 → ∞, NaN → NaN.
 ///
 /// # Accuracy
-/// The difference is that of the numbers given: |N| stored with an error δ leaves σ² uncertain by δ. In 8 bits, δ = 1/255, no α
-/// below 0.09 is told from a mirror.
+/// The difference is that of the numbers given: |N| stored with an error δ leaves σ² uncertain by
+/// δ. In 8 bits, δ = 1/255, no α below 0.09 is told from a mirror.
 ///
 /// # Example
 /// ```
@@ -40,10 +41,12 @@ pub fn variance_toksvig2005<T: Real>(average_normal: impl Vector<3, Scalar = T>)
     T::lit(missing / length)
 }
 
-/// Toksvig's exponent s' = |N|s/(|N| + s(1 − |N|)) of a Blinn–Phong lobe of exponent s under an average normal N.
+/// Toksvig's exponent s' = |N|s/(|N| + s(1 − |N|)) of a Blinn–Phong lobe of exponent s under an
+/// average normal N.
 ///
-/// 1/s' = 1/s + σ² of [`variance_toksvig2005`]: the same filter where α² = 2/s, and the one of α'² = α² + 2σ². With
-/// [`alpha_walter2007`](crate::roughness::alpha_walter2007), α² = 2/(s + 2), it is so for s ≫ 2 only.
+/// 1/s' = 1/s + σ² of [`variance_toksvig2005`]: the same filter where α² = 2/s, and the one of
+/// α'² = α² + 2σ². With [`alpha_walter2007`](crate::roughness::alpha_walter2007), α² = 2/(s + 2),
+/// it is so for s ≫ 2 only.
 ///
 /// # Special cases
 /// N = 0 → 0, a lobe without direction; s = ∞ → 1/σ². |N| ≥ 1 → s.
@@ -68,7 +71,8 @@ pub fn exponent_toksvig2005<T: Real>(exponent: T, average_normal: impl Vector<3,
 /// α' = √(α² + 2σ²) by the length of an average normal.
 ///
 /// # Errors
-/// [`Error::Alpha`] where α or α' is outside [`alpha_range`](crate::roughness::alpha_range), as for N = 0.
+/// [`Error::Alpha`] where α or α' is outside [`alpha_range`](crate::roughness::alpha_range), as for
+/// N = 0.
 ///
 /// # Example
 /// ```

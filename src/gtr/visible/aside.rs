@@ -1,11 +1,11 @@
 //! The angle η out of the plane, density cos^(2n) η on |η| < ½π, n = k + 1.
 //!
-//! Its integral N(η) = η + sin η·cos η·Σⱼ δⱼ cos^(2j) η, j < n, δⱼ = Π_{i≤j} 2i/(2i + 1), has the derivative cos^(2n) η/cₙ,
-//! cₙ = Π_{i≤n} (2i − 1)/(2i), and N(½π) = ½π; the δ do not depend on n.
+//! Its integral N(η) = η + sin η·cos η·Σⱼ δⱼ cos^(2j) η, j < n, δⱼ = Π_{i≤j} 2i/(2i + 1), has the
+//! derivative cos^(2n) η/cₙ, cₙ = Π_{i≤n} (2i − 1)/(2i), and N(½π) = ½π; the δ do not depend on n.
 //!
-//! The guess: were n = 0 1 − (2η/π)² would be 4u(1 − u); it is a power of that, of which the exponent drifts from
-//! its value at η = 0 to 1/(2n + 1). A polynomial in x/(x + 16), x = −ln 4u(1 − u), gives the exponent. One step
-//! follows, the Taylor series of η in N to the third power.
+//! The guess: were n = 0 1 − (2η/π)² would be 4u(1 − u); it is a power of that, of which the
+//! exponent drifts from its value at η = 0 to 1/(2n + 1). A polynomial in x/(x + 16), x = −ln 4u(1
+//! − u), gives the exponent. One step follows, the Taylor series of η in N to the third power.
 
 use super::{MAX, power, select};
 use crate::elementary::polynomial::polynomial;
@@ -13,8 +13,8 @@ use crate::elementary::{exp_m1, ln, sin_cos_of_turn};
 use crate::gtr::integer::number;
 use crate::real::Real;
 
-/// The exponent of the guess, of the k in the row k − 1, constant term first, and the relative error of the tail 1 − N/½π at the guess:
-/// see tests/reference/gtr_visible_guess.py.
+/// The exponent of the guess, of the k in the row k − 1, constant term first, and the relative
+/// error of the tail 1 − N/½π at the guess: see tests/reference/gtr_visible_guess.py.
 const EXPONENT: [[f64; 7]; MAX] = [
     [0.1406858643, 0.0714532908, 0.0987239030, -0.2642118485, 0.3133356563, -0.2728144816, 0.1158336212], // 7.7e-05
     [0.0977379477, 0.0447067720, 0.0828758872, -0.2694496998, 0.4610357460, -0.4209649333, 0.1461587930], // 1.6e-04
@@ -48,8 +48,8 @@ const CENTRE: [f64; MAX] = {
     table
 };
 
-/// The step is no larger than this part of cot η. The guess is off by 2⁻¹²/2n; what exceeds that is the rounding of N
-/// in the last few u.
+/// The step is no larger than this part of cot η. The guess is off by 2⁻¹²/2n; what exceeds that is
+/// the rounding of N in the last few u.
 const LONGEST: f64 = 0.00390625; // 2⁻⁸
 
 /// (sin η, cos η), both by the same factor, of the fraction u of the distribution, 0 < u < 1.

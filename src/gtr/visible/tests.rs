@@ -136,7 +136,8 @@ fn random(state: &mut u64) -> f64 {
     f64::from(u32::try_from(*state >> 32).unwrap()) / 4294967296.0
 }
 
-/// An angle from straight up, in all orders of magnitude from either end and from the horizon, and a fraction.
+/// An angle from straight up, in all orders of magnitude from either end and from the horizon, and
+/// a fraction.
 fn any_view(i: u32, state: &mut u64) -> (f64, f64) {
     let small = 10.0_f64.powf(-8.0 * random(state));
     let angle = match i % 5 {
@@ -182,7 +183,8 @@ fn anywhere() {
     assert!(single.0 < 2.7e-9, "f32: {single:?}");
 }
 
-/// At the edge of visibility C = u·G(e) holds relatively, up to the rounding of G(e) over u: so d has its digits.
+/// At the edge of visibility C = u·G(e) holds relatively, up to the rounding of G(e) over u: so d
+/// has its digits.
 #[test]
 fn edge_of_visibility() {
     let (mut double, mut single) = ((0.0, 0, 0.0, 0.0), (0.0, 0, 0.0, 0.0));
@@ -213,7 +215,8 @@ fn edge_of_visibility() {
     assert!(single.0 < 2.3e-7, "{single:?}");
 }
 
-/// The mean over the sphere of what is asked, weighted with max(0, v·m)·m.z^(2k), by the midpoint rule.
+/// The mean over the sphere of what is asked, weighted with max(0, v·m)·m.z^(2k), by the midpoint
+/// rule.
 fn mean_over_sphere(k: usize, v: [f64; 3], f: impl Fn([f64; 3]) -> f64) -> f64 {
     let (mut sum, mut total) = (0.0, 0.0);
     for i in 0..600 {

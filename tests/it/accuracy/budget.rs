@@ -1,7 +1,8 @@
 //! The largest error of every function, as the documentation states it.
 //!
-//! A test fails above the bound and also below half of it, so that neither the code nor its documentation can
-//! drift. Errors are relative and in units of the scalar's ε (2⁻²³, 2⁻⁵²) unless the row says absolute.
+//! A test fails above the bound and also below half of it, so that neither the code nor its
+//! documentation can drift. Errors are relative and in units of the scalar's ε (2⁻²³, 2⁻⁵²) unless
+//! the row says absolute.
 
 use microsurface::Real;
 

@@ -1,4 +1,5 @@
-//! The masks of GTR by few nodes, their tables, and the components, against 50-digit values and each other.
+//! The masks of GTR by few nodes, their tables, and the components, against 50-digit values and
+//! each other.
 
 use microsurface::glam::DVec3;
 use microsurface::gtr::Density;
@@ -160,7 +161,8 @@ fn sixteen_nodes_are_those_of_the_table() {
     assert!(worst.error <= 4.8e-7, "f32: {:e} at {}", worst.error, worst.at);
 }
 
-/// (n + 1) Σₖ C(n,k)/(k + 1) (1−t)ᵏ t^{−k−1}, from the definition: what normalises (x + 1)ⁿ/(x + t)^{n+2} over the plane.
+/// (n + 1) Σₖ C(n,k)/(k + 1) (1−t)ᵏ t^{−k−1}, from the definition: what normalises (x + 1)ⁿ/(x +
+/// t)^{n+2} over the plane.
 fn integer_slope_density(gamma: f64, alpha: f64, x: f64) -> f64 {
     let (n, t) = (gamma - 2.0, alpha * alpha);
     let (mut sum, mut binomial) = (0.0, 1.0);

@@ -1,5 +1,6 @@
-//! All 2³² f32 numbers of every function of one argument against the same function in f64, as batches:
-//! `cargo test --release --test it every_f32 -- --ignored --nocapture`, about eight minutes on two cores.
+//! All 2³² f32 numbers of every function of one argument against the same function in f64, as
+//! batches: `cargo test --release --test it every_f32 -- --ignored --nocapture`, about eight
+//! minutes on two cores.
 
 use core::sync::atomic::{AtomicU32, Ordering};
 use std::thread;

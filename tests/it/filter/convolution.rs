@@ -1,4 +1,5 @@
-//! Surfaces convolved with Gaussians of slopes: against direct convolution, 30-digit values, and each other.
+//! Surfaces convolved with Gaussians of slopes: against direct convolution, 30-digit values, and
+//! each other.
 
 use microsurface::filter::{Covariance, Footprint, gaussian};
 use microsurface::glam::{DVec2, DVec3, Vec2};
@@ -9,8 +10,8 @@ use rand_pcg::Pcg64Mcg;
 use super::{footprint, uniform};
 use crate::quadrature::gauss_legendre;
 
-/// f(t + c) averaged over Gaussian c of covariance σ²ΔᵀΔ: the product rule of Gauss–Legendre within 8.5 standard
-/// deviations along each of the footprint's steps.
+/// f(t + c) averaged over Gaussian c of covariance σ²ΔᵀΔ: the product rule of Gauss–Legendre within
+/// 8.5 standard deviations along each of the footprint's steps.
 fn convolved(
     f: impl Fn(DVec2) -> f64,
     slope: DVec2,
@@ -89,8 +90,8 @@ fn the_integral_is_exact_for_all_kernels() {
     assert!(worst < 2e-13, "{worst:e}");
 }
 
-/// ½ ∫ |f − g| over the slopes of a unit surface, the largest |f/g − 1|, and f/g − 1 at the peak; `stretch` holds the
-/// width of the filtered surface along the axes.
+/// ½ ∫ |f − g| over the slopes of a unit surface, the largest |f/g − 1|, and f/g − 1 at the peak;
+/// `stretch` holds the width of the filtered surface along the axes.
 fn compared(f: impl Fn(DVec2) -> f64, g: impl Fn(DVec2) -> f64, stretch: DVec2, reach: f64) -> [f64; 3] {
     let (mut moved, mut largest) = (0.0, 0.0_f64);
     let rule = gauss_legendre(12);

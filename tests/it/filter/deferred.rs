@@ -61,7 +61,8 @@ fn a_limit_of_extents_is_a_limit_of_the_kernel() {
     }
 }
 
-/// Mean ≤ larger eigenvalue ≤ sum, and the rectangle between half and twice the eigenvalue, both of which are reached.
+/// Mean ≤ larger eigenvalue ≤ sum, and the rectangle between half and twice the eigenvalue, both of
+/// which are reached.
 #[test]
 fn bounds_are_ordered() {
     let mut random = Pcg64Mcg::new(2);
@@ -100,7 +101,8 @@ fn ellipsoid(x: f64, y: f64) -> (DVec3, DVec3) {
     (DVec3::new(x, y, z), DVec3::new(x / (a * a), y / (b * b), z / (c * c)).normalize())
 }
 
-/// Derivatives of normals by the shape operator, from differences along the tangents, are those across pixels.
+/// Derivatives of normals by the shape operator, from differences along the tangents, are those
+/// across pixels.
 #[test]
 fn curvature_moves_normals() {
     let (x, y, h) = (0.8, -0.5, 1e-4);
@@ -128,7 +130,8 @@ fn curvature_moves_normals() {
 
 #[test]
 fn quads() {
-    // Two columns of normals an angle θ apart: the steps of the average are |n − n'| = 2 sin(θ/2) on the disc.
+    // Two columns of normals an angle θ apart: the steps of the average are |n − n'| = 2 sin(θ/2)
+    // on the disc.
     for theta in [1e-4_f64, 0.3, 1.4] {
         let right = DVec3::new(theta.sin(), 0.0, theta.cos());
         let [a, b] = [DVec3::Z, right].map(|n| Frame::<f64>::from_normal_and_tangent(n, DVec3::X));
@@ -147,7 +150,8 @@ fn quads() {
     let frames = normals.map(|n| Frame::<f64>::from_normal_and_tangent(n, DVec3::X));
     let (nu, nv) = (normals[1] - normals[0], normals[2] - normals[0]);
     let (u, v) = (frames[0].to_local(nu).truncate(), frames[0].to_local(nv).truncate());
-    // The frame turns where the normal steps: the average seems to move the other way, and slopes once more.
+    // The frame turns where the normal steps: the average seems to move the other way, and slopes
+    // once more.
     for (sign, footprint) in [(-1.0, quad_projected(&frames)), (1.0, quad_in_slopes(&frames))] {
         let [du, dv] = footprint.steps().map(|step| sign * step);
         assert!((du - u).length() < 2e-3 * u.length() && (dv - v).length() < 2e-3 * v.length(), "{du} {u}");

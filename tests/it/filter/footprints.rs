@@ -1,4 +1,5 @@
-//! Footprints: Jacobians, half vectors, rays and quads, each against differences of what it is the derivative of.
+//! Footprints: Jacobians, half vectors, rays and quads, each against differences of what it is the
+//! derivative of.
 
 mod ends;
 mod half_vector;

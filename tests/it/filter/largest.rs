@@ -8,7 +8,8 @@ use microsurface::{Beckmann, Ggx};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
 
-/// Edges and centres out to the largest numbers, where the sums over edges are nothing but rounding.
+/// Edges and centres out to the largest numbers, where the sums over edges are nothing but
+/// rounding.
 #[test]
 fn means_over_the_largest_footprints_are_at_least_zero() {
     let mut rng = Pcg64::seed_from_u64(31);

@@ -13,7 +13,8 @@ use rand_pcg::Pcg64;
 
 use crate::quadrature::gauss_legendre;
 
-/// The mean of f over centre ± ½u ± ½v by cubature that halves a cell until it agrees with its parts.
+/// The mean of f over centre ± ½u ± ½v by cubature that halves a cell until it agrees with its
+/// parts.
 fn cubature(f: &dyn Fn(DVec2) -> f64, width: f64, centre: DVec2, u: DVec2, v: DVec2) -> f64 {
     let rule = gauss_legendre(9);
     let cell = |centre: DVec2, u: DVec2, v: DVec2| -> f64 {
@@ -161,7 +162,8 @@ fn gtr_and_beckmann_over_parallelograms() {
         }
     }
     let surface = Beckmann::isotropic(1.0).unwrap();
-    // Also where next to nothing is left, and over edges of nearly one direction, whose ends are pieces of their own.
+    // Also where next to nothing is left, and over edges of nearly one direction, whose ends are
+    // pieces of their own.
     let near = |[slope, u, v]: [DVec2; 3]| slope.length() - 0.5 * (u.length() + v.length()) < 20.0;
     worst_of(&surface, 0.3, &[0, 1, 2, 3, 4], 200, near).assert_within(1e-9);
 }
@@ -291,7 +293,8 @@ fn shares_of_polygons_add_up() {
     assert!(nothing.abs() < 1e-16);
 }
 
-/// The BRDF over a footprint is the mean of BRDFs with the half vector moved, masks and Fresnel kept.
+/// The BRDF over a footprint is the mean of BRDFs with the half vector moved, masks and Fresnel
+/// kept.
 #[test]
 fn the_brdf_over_a_footprint() {
     let mut rng = Pcg64::seed_from_u64(10);
@@ -318,7 +321,8 @@ fn the_brdf_over_a_footprint() {
     }
 }
 
-/// However large or far, every profile ends with a number that is neither negative nor above the peak.
+/// However large or far, every profile ends with a number that is neither negative nor above the
+/// peak.
 #[test]
 fn footprints_without_measure() {
     fn bounded<P: MeanOverParallelogram<f64>>(

@@ -133,7 +133,8 @@ fn tilted_covariances() {
     assert!((covariance.entries()[1] - 0.01).abs() < 1e-17);
 }
 
-/// Raw moments in f32 have no digit where the mean is 1 and σ is 1e-4; central ones, and raw ones about a reference, do.
+/// Raw moments in f32 have no digit where the mean is 1 and σ is 1e-4; central ones, and raw ones
+/// about a reference, do.
 #[test]
 fn digits_of_a_narrow_texture() {
     let mut random = Pcg64Mcg::new(6);
@@ -145,7 +146,8 @@ fn digits_of_a_narrow_texture() {
         let entries = m.covariance().entries().map(f64::from);
         (entries[0] - exact[0]).abs().max((entries[2] - exact[2]).abs()) / exact[0]
     };
-    // Every texel's raw moments stored in f32, their average exact: as good as a texture unit can be.
+    // Every texel's raw moments stored in f32, their average exact: as good as a texture unit can
+    // be.
     let averaged = |reference: Vec2| {
         let raw: Vec<_> = texels.iter().map(|m| m.raw_about(reference)).collect();
         let mean = raw.iter().map(|(m, _)| m.as_dvec2()).sum::<DVec2>() / 64.0;
@@ -166,7 +168,8 @@ fn digits_of_a_narrow_texture() {
     assert_eq!(Moments::from_raw_about(central.mean_slope(), mean, second), central);
 }
 
-/// Both variances of isotropic bumps agree to second order: their relative difference falls with σ².
+/// Both variances of isotropic bumps agree to second order: their relative difference falls with
+/// σ².
 #[test]
 fn lengths_and_moments_agree_to_second_order() {
     let difference = |sigma: f64| {

@@ -1,4 +1,5 @@
-//! The filter in projected space against 50-digit values of the paper's three steps, and its limits.
+//! The filter in projected space against 50-digit values of the paper's three steps, and its
+//! limits.
 
 use microsurface::filter::deferred::{Kernel, rectangle};
 use microsurface::filter::{Covariance, Footprint, projected};
@@ -97,8 +98,9 @@ fn distance<M: microsurface::map::Map>(surface: &Microsurface<Ggx, M>, m: DMat2)
     (xx - m.x_axis.x).abs().max((xy - m.x_axis.y).abs()).max((yy - m.y_axis.y).abs())
 }
 
-/// Listing 1 and the form of the author's repository, as shaders have them, in f64 where they lose little. With the two
-/// diagonal entries of the kernel exchanged in the determinant, which goes unnoticed for αx = αy, they differ.
+/// Listing 1 and the form of the author's repository, as shaders have them, in f64 where they lose
+/// little. With the two diagonal entries of the kernel exchanged in the determinant, which goes
+/// unnoticed for αx = αy, they differ.
 #[test]
 fn shaders_agree_where_they_are_right() {
     let mut random = Pcg64Mcg::new(1);
@@ -123,7 +125,8 @@ fn shaders_agree_where_they_are_right() {
     }
 }
 
-/// On the disc of m.xy, D of a filtered surface is the D of A_p + 2Σ: D(m)/D(0) = (1 + m.xyᵀ(A_p + 2Σ)⁻¹m.xy)⁻².
+/// On the disc of m.xy, D of a filtered surface is the D of A_p + 2Σ: D(m)/D(0) = (1 + m.xyᵀ(A_p +
+/// 2Σ)⁻¹m.xy)⁻².
 #[test]
 fn on_the_disc_the_kernel_is_added() {
     let mut random = Pcg64Mcg::new(2);
@@ -174,7 +177,8 @@ fn wider_kernels_make_wider_surfaces() {
         // Not beyond α = 1.
         let largest = |[xx, xy, yy]: [f64; 3]| -least_gain([xx, xy, yy], [0.0; 3]);
         assert!(largest(first) <= largest(before).max(1.0) + 1e-14, "{before:?} {first:?}");
-        // The sum of slopes gains more in all; not in every direction, since A' − A is along BCᵀ and not along Cᵀ.
+        // The sum of slopes gains more in all; not in every direction, since A' − A is along BCᵀ
+        // and not along Cᵀ.
         let slopes = matrix(surface.filtered(small).unwrap().map()).0;
         assert!(first[0] + first[2] <= slopes[0] + slopes[2] + 1e-14);
     }
@@ -282,7 +286,8 @@ fn bounds_are_limited() {
     }
 }
 
-/// A smooth mirror under a long thin footprint, in f32: the determinant by entries has no digit left.
+/// A smooth mirror under a long thin footprint, in f32: the determinant by entries has no digit
+/// left.
 #[test]
 fn thin_kernels_keep_their_digits() {
     let (du, dv) = (Vec2::new(0.3, 0.4), Vec2::new(-0.8e-5, 0.6e-5));

@@ -1,5 +1,5 @@
-//! The identities under random maps of entries within ±10 and of ratios of singular values up to 1e6, for surfaces
-//! under a map and for black boxes moved by the same matrix.
+//! The identities under random maps of entries within ±10 and of ratios of singular values up to
+//! 1e6, for surfaces under a map and for black boxes moved by the same matrix.
 
 use microsurface::glam::DMat2;
 use microsurface::ndf::Ndf;
@@ -16,7 +16,8 @@ fn uniform(random: &mut Pcg64Mcg, low: f64, high: f64) -> f64 {
     low + (high - low) * (random.next_u64() >> 11) as f64 * (0.5 * f64::EPSILON)
 }
 
-/// The columns of a matrix: rotation × diag × rotation with a ratio of up to 1e6, entries within ±10.
+/// The columns of a matrix: rotation × diag × rotation with a ratio of up to 1e6, entries within
+/// ±10.
 fn matrix(random: &mut Pcg64Mcg) -> [[f64; 2]; 2] {
     let ratio = 10_f64.powf(uniform(random, 0.0, 6.0));
     let largest = uniform(random, 0.1, 7.0);

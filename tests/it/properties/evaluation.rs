@@ -136,8 +136,8 @@ fn reflection_is_reciprocal<T: Scalar>() {
     });
 }
 
-/// f = F D G2/(4 zi zo) with D along the half vector and G2 of its own: the masked cosines that evaluation
-/// divides by are made otherwise.
+/// f = F D G2/(4 zi zo) with D along the half vector and G2 of its own: the masked cosines that
+/// evaluation divides by are made otherwise.
 fn reflection_is_made_of_its_factors<T: Scalar>() {
     check(6000, (distribution(), pairs::<T>()), |(spec, (i, o))| {
         let surface = built::<T>(&spec)?;
@@ -196,7 +196,8 @@ fn visible_normals_are_those_of_the_definition<T: Scalar>() {
             && vndf > T::lit(16.0) * T::MIN_POSITIVE
             && surface.sigma(direction) > T::MIN_POSITIVE
         {
-            // D_w of GGX is not made of D but of one quotient: seven halves of ε here, five on the other side.
+            // D_w of GGX is not made of D but of one quotient: seven halves of ε here, five on the
+            // other side.
             let roundings = if spec.shape == Shape::Ggx { 4.5 } else { 2.0 };
             near("D_w σ", vndf * surface.sigma(direction), facing * surface.d(normal), roundings)?;
         }
@@ -211,7 +212,8 @@ fn single_precision_agrees_with_double() {
         let (narrow, exact) = (built::<f32>(&spec)?, built::<f64>(&spec)?);
         let (v, direction) = (vec3::<f64>(wide(w)), w.into());
         let skew = skewness(&spec);
-        // Below the horizon a Gaussian tail is seen, whose exponent is that of the direction's slope.
+        // Below the horizon a Gaussian tail is seen, whose exponent is that of the direction's
+        // slope.
         let exponent = if w[2] < 0.0 && spec.shape == Shape::Beckmann {
             let [x, y] = spec.factor::<f64>().map(|c| c[0] * v.x + c[1] * v.y);
             v.z * v.z / (x * x + y * y)
@@ -219,7 +221,8 @@ fn single_precision_agrees_with_double() {
             0.0
         };
         let area = |name, a: f32, b: f64| near(name, a, b as f32, (8.0 + 3.0 * exponent) * skew);
-        // A spline's σ from below is a difference; and next to the nadir the closed mask of α = 1 underflows.
+        // A spline's σ from below is a difference; and next to the nadir the closed mask of α = 1
+        // underflows.
         if w[2] >= 0.0 || (spec.exact_mask() && exact.sigma(v) > 1e-20) {
             area("σ", narrow.sigma(direction), exact.sigma(v))?;
         }

@@ -18,7 +18,8 @@ for_both_scalars! {
     mirror_images_are_on_the_other_side
 }
 
-/// Axes of unit length, at right angles and right-handed, each to `roundings` ε; z is the normal itself.
+/// Axes of unit length, at right angles and right-handed, each to `roundings` ε; z is the normal
+/// itself.
 fn orthonormal<T: Scalar>(frame: &Frame<T>, normal: [T; 3], roundings: f64) -> Outcome {
     let [x, y, z]: [[T; 3]; 3] = frame.axes().map(Into::into);
     prop_assert_eq!(z, normal);

@@ -1,4 +1,5 @@
-//! Linear maps: what must not change a surface, what must change it in the same way, and the Jacobian of normals.
+//! Linear maps: what must not change a surface, what must change it in the same way, and the
+//! Jacobian of normals.
 
 use core::f64::consts::{PI, TAU};
 
@@ -93,8 +94,8 @@ fn diagonal_matrices_are_axis_aligned<T: Scalar>() {
     });
 }
 
-/// D = 1/(π √det A (mᵀA⁻¹m + z²)²) and D = exp(−mᵀA⁻¹m/z²)/(π √det A z⁴), σ = ½(z + √(z² + wᵀAw)), in f64 from a
-/// factor that the test computes.
+/// D = 1/(π √det A (mᵀA⁻¹m + z²)²) and D = exp(−mᵀA⁻¹m/z²)/(π √det A z⁴), σ = ½(z + √(z² + wᵀAw)),
+/// in f64 from a factor that the test computes.
 fn linear_densities_are_those_of_their_matrix<T: Scalar>() {
     check(4000, (widths(), strictly_above::<T>()), |(widths, w)| {
         let spec = |shape| Spec::new(shape, widths, Move::Stay);
@@ -226,8 +227,8 @@ fn rotations_leave_isotropic_surfaces<T: Scalar>() {
     });
 }
 
-/// D_M(m) = |det M|/|Mᵀm|⁴ D(m′), m′ = Mᵀm/|Mᵀm|, and that factor is the Jacobian of m ↦ m′ by finite differences
-/// times the cosines' ratio: projected areas are kept.
+/// D_M(m) = |det M|/|Mᵀm|⁴ D(m′), m′ = Mᵀm/|Mᵀm|, and that factor is the Jacobian of m ↦ m′ by
+/// finite differences times the cosines' ratio: projected areas are kept.
 fn densities_carry_the_jacobian_of_normals<T: Scalar>() {
     check(2000, (surface(), matrix(), 0.05..1.0, 0.0..TAU), |(spec, columns, z, phi)| {
         let spec = Spec { moved: Move::Stay, ..spec };

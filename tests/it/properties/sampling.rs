@@ -74,8 +74,8 @@ fn a_sample_of_a_mixture_is_that_of_the_reflection<T: Scalar>() {
     reflected_samples::<T, _>(visible_surface(), of_visible, true);
 }
 
-/// p/(2π) + (1 − p) times the pdf of the other sampling; no density below the horizon, nor without a half vector but
-/// the uniform one; a mixture of a mixture is a mixture.
+/// p/(2π) + (1 − p) times the pdf of the other sampling; no density below the horizon, nor without
+/// a half vector but the uniform one; a mixture of a mixture is a mixture.
 fn mixtures_have_the_density_of_the_balance_heuristic<T: Scalar>() {
     let arguments = (surface(), pairs::<T>(), unit_interval::<T>());
     check(3000, arguments, |(spec, (i, o), p)| {

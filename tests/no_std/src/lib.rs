@@ -1,4 +1,5 @@
-//! Proof that microsurface links without std: a panic handler of its own, which std would duplicate.
+//! Proof that microsurface links without std: a panic handler of its own, which std would
+//! duplicate.
 #![no_std]
 
 use microsurface::batch::{Directions, NdfBatch};

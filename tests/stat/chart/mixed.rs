@@ -1,4 +1,5 @@
-//! Visible normals of GTR: a mixture of profiles whose slopes along and across the view have closed forms.
+//! Visible normals of GTR: a mixture of profiles whose slopes along and across the view have closed
+//! forms.
 
 use core::f64::consts::PI;
 
@@ -11,13 +12,15 @@ type ByExponent = [f64; MOST + 1];
 
 /// The chart of the normals visible from w, with x, y and ν as in [`View`](super::View).
 ///
-/// With n = max(0, ⌈γ⌉ − 2) and p = n + 2 − γ, Euler's Beta integral over y = eˢ of the squared widths
-/// t = (α² + y)/(1 + y) makes
+/// With n = max(0, ⌈γ⌉ − 2) and p = n + 2 − γ, Euler's Beta integral over y = eˢ of the squared
+/// widths t = (α² + y)/(1 + y) makes
 ///
-/// P22 ∝ ∫ y^p (1 + y)^{−n−2} (1 + r²)ⁿ/(t + r²)^{n+2} ds,  (1 + r²)ⁿ/(t + r²)^{n+2} = Σₖ C(n, k) (1 − t)ᵏ/(t + r²)^{k+2}.
+/// P22 ∝ ∫ y^p (1 + y)^{−n−2} (1 + r²)ⁿ/(t + r²)^{n+2} ds, (1 + r²)ⁿ/(t + r²)^{n+2} = Σₖ C(n, k) (1
+/// − t)ᵏ/(t + r²)^{k+2}.
 ///
-/// The trapezoid rule of step 2 is off by some e^{−π²}, so that few components make a chart in which GTR is flat to 1e-2.
-/// The first coordinate is x, the second the distribution function of y given x.
+/// The trapezoid rule of step 2 is off by some e^{−π²}, so that few components make a chart in
+/// which GTR is flat to 1e-2. The first coordinate is x, the second the distribution function of y
+/// given x.
 #[derive(Debug, Clone)]
 pub(crate) struct Mixed {
     inverse: Inverse,
@@ -125,8 +128,8 @@ impl Component {
         densities
     }
 
-    /// ∫_{−∞}^x (ν − x') P₂ dx', weighted: with sin = x/√(1 + x²), ∫ (1 + x²)^{−k−3/2} dx = ∫ (1 − sin²)ᵏ d sin, a
-    /// polynomial in the distance e = 1 + sin from its end.
+    /// ∫_{−∞}^x (ν − x') P₂ dx', weighted: with sin = x/√(1 + x²), ∫ (1 + x²)^{−k−3/2} dx = ∫ (1 −
+    /// sin²)ᵏ d sin, a polynomial in the distance e = 1 + sin from its end.
     fn integral(&self, nu: f64, x: f64) -> f64 {
         let (nu, x) = (nu / self.width, x / self.width);
         let h = x.hypot(1.0);
@@ -153,7 +156,8 @@ fn power_integral(k: usize, e: f64) -> f64 {
 }
 
 impl Across {
-    /// ∫₀^y of the density, weighted, with ∫ (1 + τ²)^{−m−1} = (τ (1 + τ²)^{−m} + (2m − 1) ∫ (1 + τ²)^{−m})/2m.
+    /// ∫₀^y of the density, weighted, with ∫ (1 + τ²)^{−m−1} = (τ (1 + τ²)^{−m} + (2m − 1) ∫ (1 +
+    /// τ²)^{−m})/2m.
     fn share(&self, y: f64) -> f64 {
         let tau = y / self.width;
         let inverse = 1.0 / (1.0 + tau * tau);

@@ -95,12 +95,14 @@ impl Chart for Polar {
     }
 }
 
-/// The part of a [`Polar`] chart whose normals reflect `wo` above the horizon, stretched over the unit square.
+/// The part of a [`Polar`] chart whose normals reflect `wo` above the horizon, stretched over the
+/// unit square.
 ///
-/// wi.z > 0 is |t + wo.xy/wo.z| < 1/wo.z for the slope t, a disk that contains t = 0: along every azimuth the slopes
-/// reach from 0 to its rim, a share p = F(x)/F(x at the rim) of that way, and the first coordinate is 1 − √(1 − p). The
-/// density of reflected directions has no discontinuity inside, and that of visible normals, which grows with the slope
-/// like (1 − F)^{−1/2}, no singularity.
+/// wi.z > 0 is |t + wo.xy/wo.z| < 1/wo.z for the slope t, a disk that contains t = 0: along every
+/// azimuth the slopes reach from 0 to its rim, a share p = F(x)/F(x at the rim) of that way, and
+/// the first coordinate is 1 − √(1 − p). The density of reflected directions has no discontinuity
+/// inside, and that of visible normals, which grows with the slope like (1 − F)^{−1/2}, no
+/// singularity.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Reflecting {
     pub(crate) polar: Polar,

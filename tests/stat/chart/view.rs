@@ -14,10 +14,11 @@ pub(crate) enum VisibleProfile {
 
 /// The chart of the normals visible from w.
 ///
-/// With the profile's slope x along R w and y across it, and ν = w.z/|R w|, a facet is visible where x < ν and the
-/// density of visible slopes is (ν − x) P22(x, y)/∫. For both profiles it is a product: x has the density
-/// (ν − x) P₂(x)/∫ with P₂ = ½(1 + x²)^{−3/2} (GGX) or e^{−x²}/√π (Beckmann), and the second coordinate
-/// τ = y/√(1 + x²) or y has the density (2/π)/(1 + τ²)² or e^{−τ²}/√π. Heitz and d'Eon 2014, §4.
+/// With the profile's slope x along R w and y across it, and ν = w.z/|R w|, a facet is visible
+/// where x < ν and the density of visible slopes is (ν − x) P22(x, y)/∫. For both profiles it is a
+/// product: x has the density (ν − x) P₂(x)/∫ with P₂ = ½(1 + x²)^{−3/2} (GGX) or e^{−x²}/√π
+/// (Beckmann), and the second coordinate τ = y/√(1 + x²) or y has the density (2/π)/(1 + τ²)² or
+/// e^{−τ²}/√π. Heitz and d'Eon 2014, §4.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct View {
     profile: VisibleProfile,
@@ -50,8 +51,8 @@ impl View {
         ((nu - x) * (nu + x)).exp()
     }
 
-    /// ∫_{−∞}^x (ν − x') P₂ dx', scaled like [`gaussian`](Self::gaussian). No term cancels but by the factor
-    /// ν² of Beckmann below the horizon, where |ν| stays below 25.
+    /// ∫_{−∞}^x (ν − x') P₂ dx', scaled like [`gaussian`](Self::gaussian). No term cancels but by
+    /// the factor ν² of Beckmann below the horizon, where |ν| stays below 25.
     fn scaled_integral(&self, x: f64) -> f64 {
         let nu = self.nu;
         match (self.profile, x < 0.0) {
@@ -116,8 +117,9 @@ impl Chart for View {
     }
 }
 
-/// The spherical cap of Dupuy and Benyoub 2023 for GGX: reflected about the profile's normal, the profile's view
-/// direction v is uniform on the part of the unit sphere above −v.z. For the Kolmogorov–Smirnov test only.
+/// The spherical cap of Dupuy and Benyoub 2023 for GGX: reflected about the profile's normal, the
+/// profile's view direction v is uniform on the part of the unit sphere above −v.z. For the
+/// Kolmogorov–Smirnov test only.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Cap {
     inverse: Inverse,

@@ -1,11 +1,12 @@
 //! Hill climbing: the largest value of an objective over a domain, from many random starts.
 //!
-//! The domain is a function from the unit cube to inputs. A coordinate that chooses between families of inputs, and
-//! coordinates that count ulps, make the climber reach edges which no uniform coordinate would meet.
+//! The domain is a function from the unit cube to inputs. A coordinate that chooses between
+//! families of inputs, and coordinates that count ulps, make the climber reach edges which no
+//! uniform coordinate would meet.
 //!
-//! Rounding errors are rough functions: two neighbouring inputs have unrelated last bits. The climber therefore does
-//! not follow gradients. It keeps the best input seen and tries random moves of all sizes, from the whole cube down
-//! to one ulp.
+//! Rounding errors are rough functions: two neighbouring inputs have unrelated last bits. The
+//! climber therefore does not follow gradients. It keeps the best input seen and tries random moves
+//! of all sizes, from the whole cube down to one ulp.
 
 use rand::Rng as _;
 use rand_pcg::Pcg64Mcg;
@@ -73,7 +74,8 @@ fn climbed<const K: usize>(
 ) -> (f64, [f64; K]) {
     for _ in 0..moves {
         let mut point = best.1;
-        // One coordinate moves surely, each other one every second time; the sizes are log-uniform down to 2⁻⁵³.
+        // One coordinate moves surely, each other one every second time; the sizes are log-uniform
+        // down to 2⁻⁵³.
         let sure = (unit(rng) * K as f64) as usize;
         for (k, coordinate) in point.iter_mut().enumerate() {
             if k == sure || unit(rng) < 0.5 {

@@ -65,8 +65,9 @@ fn without_a_direction_all_is_nan() {
 }
 
 proptest! {
-    /// Half vectors above, on and below the horizon, however short: the projection moves by finite steps unless H = 0
-    /// or the step is beyond the largest number, slopes unless H.z = 0; NaN never comes back for either.
+    /// Half vectors above, on and below the horizon, however short: the projection moves by finite
+    /// steps unless H = 0 or the step is beyond the largest number, slopes unless H.z = 0; NaN
+    /// never comes back for either.
     #[test]
     fn projections_are_never_nan(wi in anywhere::<f32>(), wo in anywhere::<f32>()) {
         let frame = Frame::<f32>::from_normal(Vec3::Z);

@@ -238,7 +238,8 @@ impl Single {
     fn errors(&self) -> [f64; 2] {
         let Self { frame, directions: [wi, wo], distances: [near, far], motion } = self;
         let single = HalfVector::<f32>::at_distances(frame, *wi, *near, *wo, *far);
-        // The same numbers in f64; the frame is orthonormal to rounding only, which is not the steps' error.
+        // The same numbers in f64; the frame is orthonormal to rounding only, which is not the
+        // steps' error.
         let axes = frame.axes().map(Vec3::as_dvec3);
         let local = |v: DVec3| DVec3::new(axes[0].dot(v), axes[1].dot(v), axes[2].dot(v));
         let h = local(wi.as_dvec3() + wo.as_dvec3());

@@ -46,7 +46,8 @@ fn jacobians_are_those_of_differences() {
         ] {
             let size = exact.x_axis.length().max(exact.y_axis.length());
             assert!(exact.abs_diff_eq(difference, 1e-8 * size), "{name} at {m}: {exact} {difference}");
-            // The columns' sum of squares is that of the singular values, the determinant their product.
+            // The columns' sum of squares is that of the singular values, the determinant their
+            // product.
             let squares = exact.x_axis.length_squared() + exact.y_axis.length_squared();
             let product = largest * smallest * if name == "disk to slope" { 1.0 } else { m.z.signum() };
             assert!((squares / (largest * largest + smallest * smallest) - 1.0).abs() < 1e-12, "{name}");
@@ -61,7 +62,8 @@ fn jacobians_are_those_of_differences() {
     }
 }
 
-/// Errors of derivatives are amplified by no more and no less than the singular values, and both are reached.
+/// Errors of derivatives are amplified by no more and no less than the singular values, and both
+/// are reached.
 #[test]
 fn amplification_is_that_of_angles() {
     let mut random = Pcg64Mcg::new(2);
@@ -97,7 +99,8 @@ fn at_the_pole_x_is_radial() {
     }
 }
 
-/// The documented bounds: the largest error of an entry in f32, in ε, at grazing angles and at the pole.
+/// The documented bounds: the largest error of an entry in f32, in ε, at grazing angles and at the
+/// pole.
 #[test]
 fn entries_have_their_digits_everywhere() {
     let mut random = Pcg64Mcg::new(3);
