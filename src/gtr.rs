@@ -300,7 +300,7 @@ impl<T: Real> Density<T> {
         Self::of_log(alpha, gamma, range_and_log(alpha.to_f64()))
     }
 
-    /// The same of a width that has been checked, with its 1 − α² and ln α².
+    /// The density of a width that has been checked, with its 1 − α² and ln α².
     #[inline(always)]
     pub(super) fn of_log(alpha: T, gamma: T, (range, log): (f64, f64)) -> Result<Self, Error> {
         let (a, g) = (alpha.to_f64(), gamma.to_f64());

@@ -47,7 +47,7 @@ pub trait Map: sealed::Sealed + Copy {
     /// (q̂, ẑ²) = ρ²·(|Mᵀ m_xy|², m.z²).
     fn normal_terms(&self, m: [Self::Scalar; 3]) -> (Self::Scalar, Self::Scalar);
 
-    /// The same in the wide scalar, from the stored α and the components of m without any rounding
+    /// (q̂, ẑ²) in the wide scalar, from the stored α and the components of m without any rounding
     /// to the narrow one. Where a density is steep in q̂/ẑ², the rounding of the ratio is the error
     /// of the density.
     fn normal_terms_wide(

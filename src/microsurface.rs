@@ -70,7 +70,7 @@ impl<P, M: Map> Microsurface<P, M> {
     }
 }
 
-/// The same surface under the most general map, for tables of surfaces of one type.
+/// Converts to the most general map, for tables of surfaces of one type.
 impl<P, T: Real> From<Microsurface<P, Isotropic<T>>> for Microsurface<P, Linear<T>> {
     #[inline]
     fn from(surface: Microsurface<P, Isotropic<T>>) -> Self {
@@ -78,7 +78,7 @@ impl<P, T: Real> From<Microsurface<P, Isotropic<T>>> for Microsurface<P, Linear<
     }
 }
 
-/// The same surface under the most general map, for tables of surfaces of one type.
+/// Converts to the most general map, for tables of surfaces of one type.
 impl<P, T: Real> From<Microsurface<P, AxisAligned<T>>> for Microsurface<P, Linear<T>> {
     #[inline]
     fn from(surface: Microsurface<P, AxisAligned<T>>) -> Self {
@@ -276,13 +276,13 @@ pub(crate) fn turned_into_view<T: Real>(w: [T; 3], m: [T; 3]) -> [T; 3] {
 #[inline(always)]
 pub(crate) fn in_view<T: Real>(w: [T; 3], m: [T; 3]) -> bool {
     let (w_m, length2) = (dot(w, m), dot(m, m));
-    // 16ε|m| bounds the rounding of w·m, here and once more by whoever uses the sample: 3ε Σ|terms|
+    // 16ε|m| bounds the rounding of w·m, here and once more in the caller: 3ε Σ|terms|
     // ≤ 3√3 ε|m| each. Squares that are no normal numbers tell nothing.
     let edge = T::lit(256.0) * T::EPSILON * T::EPSILON * length2 + T::MIN_POSITIVE;
     w_m * w_m.abs() > edge
 }
 
-/// The same for a facet near the edge of visibility, whose m may be the difference of two equal
+/// Turns a facet near the edge of visibility, whose m may be the difference of two equal
 /// vectors.
 ///
 /// It is moved towards w to w·m of 8ε of the terms of the sum, and at least 2⁻⁶⁴ (f32) or 2⁻⁵¹²

@@ -113,7 +113,7 @@ pub trait Ndf {
     /// quotient for both.
     ///
     /// # Domain
-    /// That of [`d_along`](Self::d_along).
+    /// As [`d_along`](Self::d_along).
     #[doc(hidden)]
     #[inline(always)]
     fn d_times(&self, m: Vec3<Self>, length2: Self::Scalar, fraction: [Self::Scalar; 2]) -> Self::Scalar {

@@ -258,7 +258,7 @@ pub trait Spectrum: Copy + Send + Sync + 'static {
     /// f32 or f64.
     type Scalar: Real;
 
-    /// The same value in every channel.
+    /// The spectrum with this value in every channel.
     #[must_use]
     fn splat(value: Self::Scalar) -> Self;
 

@@ -57,14 +57,14 @@ pub struct DirectionsMut<'a, T> {
 }
 
 impl<T> DirectionsMut<'_, T> {
-    /// The same slices, for one call.
+    /// Borrows the slices for one call.
     #[inline]
     #[must_use]
     pub const fn reborrow(&mut self) -> DirectionsMut<'_, T> {
         DirectionsMut { x: self.x, y: self.y, z: self.z }
     }
 
-    /// What has been written.
+    /// The directions written so far.
     #[inline]
     #[must_use]
     pub const fn as_directions(&self) -> Directions<'_, T> {

@@ -7,7 +7,7 @@
 use crate::batch::arrays::{Directions, DirectionsMut, Numbers, Samples};
 use crate::ndf::staged::BLOCK;
 
-/// What a batch reads of each element. Sealed: slices, [`Directions`], [`Numbers`],
+/// Arrays that a batch reads. Sealed: slices, [`Directions`], [`Numbers`],
 /// [`Footprints`](crate::batch::Footprints), the numbers of a [`Varied`](crate::batch::Varied)
 /// material, and pairs and triples of them.
 pub trait Source: Copy + sealed::Source {
@@ -34,7 +34,7 @@ pub trait Source: Copy + sealed::Source {
         Self: 'b;
 }
 
-/// What a batch writes of each element. Sealed: slices, [`DirectionsMut`], [`Samples`], and pairs
+/// Arrays that a batch writes. Sealed: slices, [`DirectionsMut`], [`Samples`], and pairs
 /// of slices.
 pub trait Sink: sealed::Sink {
     /// A slice's element, or a tuple of components.

@@ -56,7 +56,7 @@ pub fn map<I: Source, O: Sink>(input: I, output: O, f: impl Fn(I::Item) -> O::It
 
 /// A function of an element, for [`map_inlined`].
 pub trait Function<I> {
-    /// What it gives.
+    /// The type of its value.
     type Out;
     /// Its value; to be marked `#[inline(always)]`.
     fn of(&self, input: I) -> Self::Out;

@@ -157,7 +157,7 @@ impl<M: Material> Builder<M> for Stored {
     }
 }
 
-/// The same material for every element; needs no input.
+/// One material for every element; needs no input.
 pub(super) struct Shared<'a, M>(pub(super) &'a M);
 
 impl<'a, M> Builder<()> for Shared<'a, M> {

@@ -15,7 +15,7 @@ pub(super) trait Vectorized {
 /// A level of the instruction set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Level {
-    /// What the build was compiled for.
+    /// The level the build was compiled for.
     Target,
     /// AVX2: 8 f32, 4 f64.
     Avx2,

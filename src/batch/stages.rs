@@ -6,7 +6,8 @@ use crate::Real;
 use crate::batch::blocks::{Sink, Source};
 use crate::ndf::staged::{BLOCK, Solver};
 
-/// What a batch computes of each element: first the normal that it samples, if any, then the rest.
+/// A computation for each element of a batch: first the normal that it samples, if any, then the
+/// rest.
 pub trait Body<M, I> {
     /// The scalar of normals.
     type Number: Real;

@@ -62,7 +62,7 @@ impl<'a, B: OnSurface, V: Variation<B::Surface>> Varied<'a, B, V> {
     }
 }
 
-/// What can be varied: a microsurface, or a BSDF on one. Sealed: [`Microsurface`],
+/// A material that can be varied: a microsurface, or a BSDF on one. Sealed: [`Microsurface`],
 /// [`RoughConductor`].
 pub trait OnSurface: Copy + sealed::OnSurface {
     #[doc(hidden)]
@@ -111,7 +111,7 @@ impl<N0: Copy, F: Copy, S: Copy> OnSurface for RoughConductor<N0, F, S> {
 pub trait Variation<N>: Source {
     #[doc(hidden)]
     type Surface;
-    /// What depends on the surface alone.
+    /// Numbers that depend on the surface alone.
     #[doc(hidden)]
     type Prepared;
     #[doc(hidden)]

@@ -11,10 +11,10 @@ use crate::profile::{Profile, SampleProfile, SampleVisibleProfile};
 
 /// [`Beckmann`] with another sampling of visible normals: to 1e-6 of u instead of to rounding.
 ///
-/// The same inversion in the arithmetic of the scalar, where [`Beckmann`] in f32 computes part of
-/// it in f64: in batches it takes about half the time (`cargo bench --bench bench --
-/// entry_visible_normal_beckmann`). All that is evaluated is Beckmann's to the bit, and so is
-/// everything in f64.
+/// Uses the inversion of [`Beckmann`] in the arithmetic of the scalar, where [`Beckmann`] in f32
+/// computes part of it in f64: in batches it takes about half the time (`cargo bench --bench
+/// bench -- entry_visible_normal_beckmann`). All that is evaluated is Beckmann's to the bit, and so
+/// is everything in f64.
 ///
 /// # Accuracy
 /// In f32, as a difference of u, the slope along the view is right to 4.5e-7 at worst (ν = z/s =

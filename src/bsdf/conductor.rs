@@ -62,14 +62,14 @@ impl<N, F> RoughConductor<N, F> {
 }
 
 impl<N, F, S> RoughConductor<N, F, S> {
-    /// The same BRDF, sampled otherwise.
+    /// This BRDF with another choice of normals to sample.
     #[inline]
     #[must_use]
     pub fn sampled_by<R>(self, sampling: R) -> RoughConductor<N, F, R> {
         RoughConductor { surface: self.surface, fresnel: self.fresnel, sampling }
     }
 
-    /// The same surface and sampling with another Fresnel term:
+    /// This BRDF with another Fresnel term:
     /// [`Perfect`](crate::fresnel::Perfect) for a furnace.
     #[inline]
     #[must_use]
@@ -84,7 +84,7 @@ impl<N, F, S> RoughConductor<N, F, S> {
         &self.surface
     }
 
-    /// The same on another microsurface.
+    /// This BRDF on another microsurface.
     #[inline(always)]
     pub(crate) fn with_surface<R>(self, surface: R) -> RoughConductor<R, F, S> {
         RoughConductor { surface, fresnel: self.fresnel, sampling: self.sampling }

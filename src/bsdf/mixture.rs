@@ -19,9 +19,9 @@ use crate::vector::{below_one, normalized};
 /// have weights without bound, at grazing angles, it is bounded.
 ///
 /// # Variance
-/// Of all normals and of [`for_alpha`](Self::for_alpha), relative to the square of the mean, for a
-/// reflectance of 1: means over γ = 0.1, 1, 1.5, 2, 4 and views from 0°, 30°, 60°, 80° (`cargo
-/// test --test stat long_mixture -- --ignored --nocapture`).
+/// Variance of all normals and of [`for_alpha`](Self::for_alpha), relative to the square of the
+/// mean, for a reflectance of 1: means over γ = 0.1, 1, 1.5, 2, 4 and views from 0°, 30°, 60°, 80°
+/// (`cargo test --test stat long_mixture -- --ignored --nocapture`).
 ///
 /// | α | light all around: all normals | mixture | | lobe cos⁸ about the mirror direction: all normals | mixture | |
 /// |---|---|---|---|---|---|---|

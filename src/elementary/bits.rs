@@ -88,7 +88,7 @@ pub trait Bits: Copy {
 pub struct ErfInv {
     /// The end of the interval in √w.
     pub end: f64,
-    /// What is subtracted from √w.
+    /// The shift of √w: it is subtracted.
     pub shift: f64,
     /// Numerator, constant term first.
     pub num: &'static [f64],
@@ -149,7 +149,7 @@ pub(super) use bits;
 mod tests {
     use crate::Real;
 
-    /// Of every exponent for which it is stated, at both ends of the binade and within.
+    /// Checks every stated exponent, at both ends of the binade and within.
     fn scaled_to_one<T: Real>(exponents: core::ops::RangeInclusive<i32>) {
         for exponent in exponents {
             let power = T::lit(2f64.powi(exponent));

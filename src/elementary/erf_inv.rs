@@ -52,7 +52,7 @@ pub(crate) fn erfc_inv_inside<T: Real>(q: T) -> T {
     inverse_of_complement::<T, T>(q, ln_normal)
 }
 
-/// The same to the digits of `T`, computed in the wide scalar: the error is that of the fit, which
+/// erfc⁻¹ to the digits of `T`, computed in the wide scalar: the error is that of the fit, which
 /// is smooth, and so the result, rounded to `T`, is monotone ulp by ulp. Samplers want that.
 #[inline(always)]
 pub(crate) fn erfc_inv_inside_wide<T: Real>(q: T::Wide) -> T::Wide {

@@ -33,7 +33,7 @@ fn scale<T: Real>(y: T, n: T) -> T {
 
 /// eˣ where it is a normal number: for a caller who knows, or who selects another value elsewhere.
 ///
-/// What `exp` spends on the ends of its range is left out, and with it subnormal results, of which
+/// Leaves out what `exp` spends on the ends of its range, and with it subnormal results, of which
 /// each costs a processor a microcode assist of a hundred cycles and more.
 #[inline(always)]
 pub(crate) fn exp_normal<T: Real>(x: T) -> T {

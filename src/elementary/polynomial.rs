@@ -8,7 +8,7 @@ pub(crate) fn polynomial<T: Real>(x: T, c: &[f64]) -> T {
     polynomial_of(x, c.len(), |i| T::lit(c[i]))
 }
 
-/// The same of coefficients that depend on the argument.
+/// The polynomial whose coefficients depend on the argument.
 #[inline(always)]
 pub(super) fn polynomial_of<T: Real>(x: T, len: usize, c: impl Fn(usize) -> T) -> T {
     let y = x * x;

@@ -138,7 +138,7 @@ impl<T: Real> Kernel<T> {
     }
 }
 
-/// Which number stands for the two eigenvalues of 2Σ in an isotropic kernel.
+/// The number that stands for the two eigenvalues of 2Σ in an isotropic kernel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Bound {
     /// Their sum, 2σ²(|∂ᵤn|² + |∂ᵥn|²): at least the larger one, so nothing shimmers; up to twice
@@ -197,7 +197,7 @@ pub fn isotropic_from_normals<T: Real>(
     of_trace(alpha, square(dn_du) + square(dn_dv), kernel, bound)
 }
 
-/// The same from a footprint, in slopes or projected: α'² = α² + min(f σ²(|du|² + |dv|²), κ).
+/// α widened by a footprint, in slopes or projected: α'² = α² + min(f σ²(|du|² + |dv|²), κ).
 ///
 /// # Special cases
 /// As of the [module](self). NaN for α = NaN.
@@ -327,7 +327,7 @@ pub fn quad_in_slopes<T: Real>(frames: &[Frame<T>; 4]) -> Footprint<T> {
     steps(seen_average(frames).map(|n| normal_to_slope(n).into()))
 }
 
-/// The same in projected space: the steps of m.xy of the average normal.
+/// The footprint of a quad in projected space: the steps of m.xy of the average normal.
 ///
 /// # Special cases
 /// As of [`quad_in_slopes`], but finite on the horizon.

@@ -151,7 +151,7 @@ pub fn filtered_by_two<M: Map>(
     }
 }
 
-/// What the components are made of.
+/// The matrices that components are made of.
 struct Mixture {
     /// a A + b Σ.
     sums: Sums,
@@ -190,9 +190,9 @@ impl Mixture {
 
     /// GGX(a A), of weight 1/a, filtered: what of it is still GGX, and the rest.
     ///
-    /// What is still GGX is either widened as the kernel is, aA + k 2Σ, with the tail of GGX(A)
-    /// where the kernel is as wide in every direction; or a multiple of A, with its tail in every
-    /// direction, but less like what is seen near the highlight.
+    /// The part that is still GGX is either widened as the kernel is, aA + k 2Σ, with the tail of
+    /// GGX(A) where the kernel is as wide in every direction; or a multiple of A, with its tail in
+    /// every direction, but less like what is seen near the highlight.
     #[inline(always)]
     fn tail<T: Real>(&self, a: f64, widened_by_kernel: bool) -> Option<(Tail<T>, Core<T>)> {
         let (k, c) = widening(&self.kernel(a));

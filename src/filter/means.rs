@@ -20,7 +20,7 @@ pub trait MeanOverParallelogram<T: Real>: Profile<T> {
     /// The mean of the profile's own P22 (map I) over the parallelogram `centre` ± ½ `u` ± ½ `v`.
     fn mean_over_parallelogram(&self, centre: [f64; 2], u: [f64; 2], v: [f64; 2]) -> f64;
 
-    /// The same over the box `centre` ± `half`.
+    /// The mean of the profile's own P22 over the box `centre` ± `half`.
     #[inline]
     fn mean_over_box(&self, centre: [f64; 2], half: [f64; 2]) -> f64 {
         self.mean_over_parallelogram(centre, [2.0 * half[0], 0.0], [0.0, 2.0 * half[1]])

@@ -68,7 +68,7 @@ pub struct Moments<T> {
 }
 
 impl<T: Real> Moments<T> {
-    /// Of one slope.
+    /// The moments of one slope.
     #[inline]
     #[must_use]
     pub fn of_slope(slope: impl Vector<2, Scalar = T>) -> Self {
@@ -106,7 +106,7 @@ impl<T: Real> Moments<T> {
         self.mean.iter().chain(&self.covariance).all(|x| x.is_finite())
     }
 
-    /// Of slopes of this mean and covariance.
+    /// The moments of slopes of this mean and covariance.
     #[inline]
     #[must_use]
     pub fn new(mean: T::Vec2, covariance: Covariance<T>) -> Self {
@@ -219,14 +219,15 @@ impl<T: Real> Moments<T> {
         Self { mean: mean.map(T::lit), covariance: covariance.map(T::lit) }
     }
 
-    /// Of bumps `scale` times as high. The strength of a layer: `base + detail.scaled(strength)`.
+    /// The moments of bumps `scale` times as high. The strength of a layer: `base +
+    /// detail.scaled(strength)`.
     #[inline]
     #[must_use]
     pub fn scaled(&self, scale: T) -> Self {
         Self { mean: self.mean.map(|x| scale * x), covariance: self.covariance.map(|x| (scale * x) * scale) }
     }
 
-    /// Of J t: slopes in other coordinates.
+    /// The moments of J t: slopes in other coordinates.
     ///
     /// A slope is a gradient: if q are coordinates of the plane and u = f(q) those of the texture,
     /// a height h(u) has the slopes J ∂h/∂u with J = (∂u/∂q)ᵀ. A texture repeated k times (u = kq)

@@ -89,7 +89,7 @@ pub fn filtered<M: Map>(
     filtered_by(surface, footprint.covariance(variance))
 }
 
-/// The same for a covariance Σ of m.xy, of whatever cause: sums of footprints, the extent of a
+/// [`filtered`] by a covariance Σ of m.xy, of whatever cause: sums of footprints, the extent of a
 /// lamp.
 ///
 /// # Errors

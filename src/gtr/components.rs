@@ -72,7 +72,7 @@ impl<T: Real> Components<T> {
         Ok(Self::of(width(alpha)?.to_f64(), covered(gamma)?))
     }
 
-    /// The same for numbers that have been checked.
+    /// The components of numbers that have been checked.
     pub(super) fn of(alpha: f64, gamma: f64) -> Self {
         let measure = Measure::new(alpha, gamma, &RESOLUTION);
         let mut widths2 = [1.0; MOST_COMPONENTS];
@@ -201,7 +201,7 @@ fn total<T: Real>(terms: &[T]) -> T {
 /// 1).
 ///
 /// Terms that are lost in the rounding of the sum are not chosen, and u below ε/4 counts as ε/4: a
-/// component of no account would give normals of no density.
+/// component of negligible share would give normals without density.
 #[inline(always)]
 fn pick<T: Real>(terms: &[T], total: T, u: T) -> (usize, T) {
     let least = T::lit(0.25) * T::EPSILON;

@@ -86,7 +86,7 @@ pub(super) fn student_weights<T: Real>(n: usize, t: T) -> [T; LARGEST_DEGREE + 1
     shares(n, &[t]).map(|[weight]| weight)
 }
 
-/// The same for many t at once, in loops that vectorise.
+/// The coefficients of many t at once, in loops that vectorise.
 #[inline(always)]
 fn shares<T: Real, const M: usize>(n: usize, t: &[T; M]) -> [[T; M]; LARGEST_DEGREE + 1] {
     let mut shares = [[T::ZERO; M]; LARGEST_DEGREE + 1];
@@ -181,8 +181,8 @@ impl<T: Real> Seen<T> {
         self.r * (self.remainder(n) + sum)
     }
 
-    /// The same of one component of many, without what is of no account beside the others and would
-    /// only make products denormal, each of which takes a microcode assist.
+    /// `twice_backfacing` of one component of many, without what adds nothing beside the others and
+    /// would only make products denormal, each of which takes a microcode assist.
     #[inline(always)]
     pub(super) fn twice_backfacing_of_many(&self, n: usize, series: impl Fn(usize) -> T) -> T {
         let mut sum = T::ZERO;

@@ -56,7 +56,7 @@ struct Trapezoid {
     upper_end: f64,
 }
 
-/// What a trapezoid rule is allowed.
+/// Tolerances of a trapezoid rule.
 pub(super) struct Resolution {
     /// δ: what is nearer than this to an end of the range, relative to it, is taken to be at it.
     pub(super) end: f64,

@@ -158,7 +158,8 @@ fn mean_and_aspects<T: Real>(alpha_x: T, alpha_y: T) -> Result<(T, [T; 2]), Erro
 }
 
 impl<T: Real> Gtr<T, ()> {
-    /// The same with a mask of `N` nodes, 1 to 16: see [`nodes`](super::nodes) for the errors.
+    /// [`isotropic`](Self::isotropic) with a mask of `N` nodes, 1 to 16: see
+    /// [`nodes`](super::nodes) for the errors.
     ///
     /// # Errors
     /// As [`Gtr::isotropic`].

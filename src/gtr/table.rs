@@ -104,7 +104,7 @@ impl<T: Real, const N: usize> GtrTable<T, N> {
         self.surface(alpha, |degree, widths2, weights| Nodes::of_rule(degree, widths2, weights))
     }
 
-    /// The same for a table of γ ≤ 2, with the smaller mask.
+    /// The surface of a table of γ ≤ 2, with the smaller mask.
     ///
     /// # Errors
     /// As [`isotropic`](Self::isotropic), and [`Error::Gamma`] for γ > 2.

@@ -111,9 +111,9 @@ const HALF_TOTAL: [f64; MAX] = {
     table
 };
 
-/// Of the guess, for k in the row k − 1, from tests/reference/gtr_visible_guess.py: ν = 2 − ((2k +
-/// 2)Q)^(1/(k+1)); Q^(1/2k); and of the hyperbola the slope at a vertical v, 2/((2k + 1)(k +
-/// 1)^(1/2k)).
+/// Coefficients of the guess, for k in the row k − 1, from tests/reference/gtr_visible_guess.py:
+/// ν = 2 − ((2k + 2)Q)^(1/(k+1)); Q^(1/2k); and of the hyperbola the slope at a vertical v,
+/// 2/((2k + 1)(k + 1)^(1/2k)).
 const GUESS: [[f64; 3]; MAX] = [
     [0.367007, 0.816497, 0.471405],
     [0.526387, 0.854574, 0.303934],
@@ -164,7 +164,7 @@ struct Place<W> {
     cos_y: W,
 }
 
-/// What depends on k and the view direction alone.
+/// Numbers that depend on k and the view direction alone.
 struct View<W> {
     k: usize,
     /// Whether v is below the horizon.

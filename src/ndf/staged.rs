@@ -69,13 +69,13 @@ pub trait StagedVndf: SampleVndf {
 /// Code paths between which the numbers of a distribution choose: a batch branches once, out of its
 /// loop.
 pub trait Forms: Copy {
-    /// Which path; 0 where there is only one.
+    /// The number of the path; 0 where there is only one.
     #[inline(always)]
     fn form(&self) -> usize {
         0
     }
 
-    /// The same distribution, with the compiler told the number that [`form`](Self::form) returns.
+    /// This distribution, with the compiler told the number that [`form`](Self::form) returns.
     /// Any other number gives meaningless results.
     #[inline(always)]
     #[must_use]

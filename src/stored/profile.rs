@@ -38,7 +38,7 @@ impl<T: Real, K> Named for Gtr<T, K> {
     const NAME: &'static str = "gtr";
 }
 
-/// What a GTR is built from.
+/// The numbers a GTR is built from.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[serde(bound(

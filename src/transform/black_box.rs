@@ -11,7 +11,7 @@ use crate::vector::{at_least_cosine, dot, normalized};
 /// Any distribution, moved by a 2×2 matrix of the tangent plane.
 ///
 /// Nothing is asked of the distribution but [`Ndf`], so it may be anisotropic, discrete, measured
-/// or a user's own. A [`Microsurface`](crate::Microsurface) is moved at no cost by its own
+/// or a user's own. A [`Microsurface`](crate::Microsurface) costs no more moved than at rest, by its own
 /// [`transformed`](crate::Microsurface::transformed); this gives the same.
 ///
 /// # Domain
@@ -76,7 +76,7 @@ impl<N: Ndf> Transformed<N> {
         Ok(Self { ndf, matrix, inverse, area: N::Scalar::lit(det.abs()) })
     }
 
-    /// The same distribution moved once more: `t.transformed(b)?` is `Transformed::new(ndf, b *
+    /// This distribution moved once more: `t.transformed(b)?` is `Transformed::new(ndf, b *
     /// a)?` of a `t` that was moved by `a`.
     ///
     /// # Errors

@@ -24,7 +24,7 @@ use crate::vector::dot;
 pub struct Triangle<T: Real> {
     /// The corners at rest.
     pub rest: [T::Vec3; 3],
-    /// The same corners, deformed.
+    /// The corners, deformed.
     pub deformed: [T::Vec3; 3],
     /// Their texture coordinates.
     pub uv: [T::Vec2; 3],
@@ -179,7 +179,7 @@ impl<T: Real> Mean<T> {
 pub struct Mesh<'a, T: Real> {
     /// The vertices at rest.
     pub rest: &'a [T::Vec3],
-    /// The same vertices, deformed.
+    /// The vertices, deformed.
     pub deformed: &'a [T::Vec3],
     /// Their texture coordinates.
     pub uv: &'a [T::Vec2],

@@ -85,7 +85,6 @@ fn proxy(pixel: &Pixel, variance: f64) -> f32 {
     pixel.surface.filtered(kernel).map_or(f32::NAN, |surface| surface.p22(pixel.slope))
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "a constant")]
 const BOX: f32 = 1.0 / 12.0;
 
 pub(super) fn run(effort: &Effort, out: &mut impl Write) -> io::Result<()> {

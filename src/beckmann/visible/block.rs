@@ -110,7 +110,7 @@ impl<W: Real, const N: usize> Views<'_, W, N> {
     }
 }
 
-/// What the guess takes of them.
+/// Parameters of the guesses.
 struct Outsets<G, const N: usize> {
     unit: [G; N],
     b: [G; N],

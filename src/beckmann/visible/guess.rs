@@ -18,8 +18,8 @@ const EXCESS: [f64; 3] = [2.563261, 2.713977, 3.47698];
 /// ln(1 + f)/f for √½ ≤ 1 + f < √2, to 5.1e-5 relative.
 const LN: [f64; 5] = [0.999966139, -0.499451076, 0.336391782, -0.270938792, 0.176551638];
 
-/// To the guess a view is no higher, and e^(−ν²) no less than [`LEAST`]: so no number of it is
-/// subnormal in f32, and where ν is limited the farthest w is more.
+/// Limits of the guess: a view is no higher, and e^(−ν²) no less than [`LEAST`], so no number of it
+/// is subnormal in f32, and where ν is limited the farthest w is more.
 pub(super) const HIGHEST: f64 = 1e9;
 /// See [`HIGHEST`].
 pub(super) const LEAST: f64 = 1e-30;
@@ -42,7 +42,8 @@ fn rough_ln<G: Real>(x: G) -> G {
     k * G::lit(core::f64::consts::LN_2) + f * polynomial(f, &LN)
 }
 
-/// What the guess takes of the view direction, in a scalar that may have fewer digits.
+/// Parameters of the guess that depend on the view direction, in a scalar that may have fewer
+/// digits.
 pub(super) struct Outset<G> {
     /// ν < 0; known to the compiler to be false where views from below are excluded.
     pub(super) below: bool,

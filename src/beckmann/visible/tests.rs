@@ -26,7 +26,7 @@ fn fraction(view: &View<f64>, at: (f64, f64)) -> f64 {
     view.distribution(at, <ToRounding as Inversion<f64>>::FIT).0 / view.total
 }
 
-/// What a scalar makes of ν.
+/// ν as a scalar holds it.
 fn view<T: Real<Wide = f64>>(nu: f64) -> (View<f64>, Outset<T>) {
     View::new(nu, <ToRounding as Inversion<T>>::FIT)
 }

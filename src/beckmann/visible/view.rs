@@ -27,7 +27,8 @@ fn closer<W: Real>() -> W {
     W::lit(if W::WIDENS { 9.5367431640625e-7 } else { 9.094947017729282e-13 }) // 2⁻²⁰, 2⁻⁴⁰
 }
 
-/// What the steps take of the view direction; the names are those of the module's text.
+/// Parameters of the steps that depend on the view direction; the names are those of the module's
+/// text.
 pub(super) struct View<W> {
     /// max(−ν, 0).
     pub(super) n: W,
@@ -47,20 +48,20 @@ impl<W: Real> View<W> {
         Self::of_parts(nu.max(W::ZERO), (-nu).max(W::ZERO).min(deepest()), fit)
     }
 
-    /// Of ν ≥ 0.
+    /// The view and the outset of ν ≥ 0.
     #[inline(always)]
     pub(super) fn from_above<G: Real>(nu: W, fit: Fit) -> (Self, Outset<G>) {
         Self::of_parts(nu.max(W::ZERO), W::ZERO, fit)
     }
 
-    /// Of ν ≥ 0, with what [`from_above`](Self::from_above) made of it.
+    /// The view of ν ≥ 0, from what [`from_above`](Self::from_above) made of it.
     #[inline(always)]
     pub(super) fn again(nu: W, b: W, total: W) -> Self {
         let (unit, bv) = (nu.max(W::ONE).min(W::MAX), nu.max(W::ZERO).min(W::ONE));
         Self { n: W::ZERO, unit, b, bv, total }
     }
 
-    /// Of max(ν, 0) and max(−ν, 0).
+    /// The view and the outset of max(ν, 0) and max(−ν, 0).
     #[inline(always)]
     fn of_parts<G: Real>(above: W, n: W, fit: Fit) -> (Self, Outset<G>) {
         let unit = above.max(W::ONE).min(W::MAX);

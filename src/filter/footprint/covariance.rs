@@ -108,7 +108,7 @@ impl<T: Real> Covariance<T> {
         Self::of(Gram { xx: x, xy: o, yy: y, root: Real::sqrt(determinant) * unit })
     }
 
-    /// The same variance in every direction.
+    /// The covariance of one variance in every direction.
     #[inline]
     #[must_use]
     pub fn isotropic(variance: T) -> Self {
@@ -122,7 +122,7 @@ impl<T: Real> Covariance<T> {
         Self { c11: xx.sqrt(), c12: T::ZERO, c22: yy.sqrt() }
     }
 
-    /// Of no slopes at all: filtering with it changes nothing.
+    /// The covariance of a point, 0: filtering with it changes nothing.
     #[inline]
     #[must_use]
     pub fn zero() -> Self {

@@ -78,7 +78,8 @@ pub struct HalfVector<T: Real> {
 }
 
 impl<T: Real> HalfVector<T> {
-    /// Of a point that is seen from a near eye and lit from a near light, all in world space.
+    /// The half vector of a point that is seen from a near eye and lit from a near light, all in
+    /// world space.
     #[inline]
     #[must_use]
     pub fn new(frame: &Frame<T>, point: T::Vec3, eye: T::Vec3, light: T::Vec3) -> Self {
@@ -87,8 +88,8 @@ impl<T: Real> HalfVector<T> {
         Self::at_distances(frame, wi.into(), light_distance, wo.into(), eye_distance)
     }
 
-    /// Of unit directions in world space, light and eye infinitely far: only the frame moves the
-    /// half vector, and what a motion says of the directions themselves.
+    /// The half vector of unit directions in world space, light and eye infinitely far: only the
+    /// frame moves the half vector, and what a motion says of the directions themselves.
     ///
     /// It differs from the near field by terms of the order of one over the distances.
     #[inline]
@@ -97,8 +98,8 @@ impl<T: Real> HalfVector<T> {
         Self::at_distances(frame, wi, T::INFINITY, wo, T::INFINITY)
     }
 
-    /// Of unit directions in world space and distances, either of which may be infinite:
-    /// `T::INFINITY` and a number for the sun and a near eye.
+    /// The half vector of unit directions in world space and distances, either of which may be
+    /// infinite: `T::INFINITY` and a number for the sun and a near eye.
     #[inline]
     #[must_use]
     pub fn at_distances(

@@ -58,7 +58,7 @@ pub struct Amplification<T> {
 }
 
 impl<T: Real> Amplification<T> {
-    /// Of [`sphere_to_slope`]: [1/z², 1/|z|].
+    /// The singular values of [`sphere_to_slope`]: [1/z², 1/|z|].
     ///
     /// # Special cases
     /// wm.z = 0 → ∞.
@@ -71,7 +71,7 @@ impl<T: Real> Amplification<T> {
         Self { largest: smallest * smallest, smallest }
     }
 
-    /// Of [`sphere_to_disk`]: [1, |z|].
+    /// The singular values of [`sphere_to_disk`]: [1, |z|].
     #[inline]
     #[must_use]
     pub fn on_disk(wm: impl Vector<3, Scalar = T>) -> Self {

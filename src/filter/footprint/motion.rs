@@ -33,21 +33,21 @@ use crate::vector::{cross, minus, plus_scaled, unit_and_length, unit_step};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Motion<T: Real> {
-    /// Of the shaded point.
+    /// Motion of the shaded point.
     pub point: T::Vec3,
-    /// Of the eye. Without effect where it is infinitely far.
+    /// Motion of the eye. Without effect where it is infinitely far.
     pub eye: T::Vec3,
-    /// Of the point on the light. Without effect where it is infinitely far.
+    /// Motion of the point on the light. Without effect where it is infinitely far.
     pub light: T::Vec3,
-    /// Of the direction to the light, in addition to what point and light do to it: of a light at
-    /// infinity.
+    /// Motion of the direction to the light, in addition to what point and light do to it: of a
+    /// light at infinity.
     pub wi: T::Vec3,
-    /// Of the direction to the eye, in addition to what point and eye do to it: of an eye at
+    /// Motion of the direction to the eye, in addition to what point and eye do to it: of an eye at
     /// infinity, or minus the derivative of the direction of a ray that came by mirrors.
     pub wo: T::Vec3,
-    /// Of the unit shading normal.
+    /// Motion of the unit shading normal.
     pub normal: T::Vec3,
-    /// Of the tangents about the normal, in radians.
+    /// Turn of the tangents about the normal, in radians.
     pub twist: T,
 }
 
@@ -155,7 +155,7 @@ impl<T: Real> Curvature<T> {
         Self::new(first * (c * c) + second * (s * s), xy, first * (s * s) + second * (c * c))
     }
 
-    /// Of a sphere seen from outside; a negative radius for its inside.
+    /// The curvature of a sphere seen from outside; a negative radius for its inside.
     #[inline]
     #[must_use]
     pub fn sphere(radius: T) -> Self {
@@ -163,7 +163,7 @@ impl<T: Real> Curvature<T> {
         Self::new(curvature, T::ZERO, curvature)
     }
 
-    /// Of a plane.
+    /// The curvature of a plane.
     #[inline]
     #[must_use]
     pub fn flat() -> Self {

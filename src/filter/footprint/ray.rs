@@ -30,19 +30,19 @@ use crate::vector::{minus, plus_scaled, unit_and_length, unit_step};
 /// Igehy 1999, §3.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RayDifferential<T: Real> {
-    /// Of the origin by u.
+    /// Derivative of the origin by u.
     pub origin_du: T::Vec3,
-    /// Of the origin by v.
+    /// Derivative of the origin by v.
     pub origin_dv: T::Vec3,
-    /// Of the unit direction by u.
+    /// Derivative of the unit direction by u.
     pub direction_du: T::Vec3,
-    /// Of the unit direction by v.
+    /// Derivative of the unit direction by v.
     pub direction_dv: T::Vec3,
 }
 
 impl<T: Real> RayDifferential<T> {
-    /// Of rays from one point, through a picture plane: the direction, of any length, and its
-    /// derivatives before it is normalised.
+    /// Differentials of rays from one point, through a picture plane: the direction, of any length,
+    /// and its derivatives before it is normalised.
     ///
     /// For d = forward + u·right + v·up they are `right` and `up`, scaled to a pixel.
     ///
@@ -65,8 +65,8 @@ impl<T: Real> RayDifferential<T> {
         Self::of_unnormalised([zero, zero], direction.into(), [direction_du, direction_dv])
     }
 
-    /// Of the rays of a thin lens, by the pixel, the point on the lens fixed: its `lens` is from
-    /// the centre of the lens, all else is as for [`pinhole`](Self::pinhole).
+    /// Differentials of the rays of a thin lens, by the pixel, the point on the lens fixed: its
+    /// `lens` is from the centre of the lens, all else is as for [`pinhole`](Self::pinhole).
     ///
     /// # Special cases
     /// As for a direction of 0 where the point on the lens is in focus: NaN.
@@ -88,8 +88,8 @@ impl<T: Real> RayDifferential<T> {
         Self::of_unnormalised([zero, zero], focus.seen_from(lens, direction), steps)
     }
 
-    /// Of the rays of a thin lens, by the point on the lens, the pixel fixed: `lens` from the
-    /// centre of the lens, and its derivatives along two axes.
+    /// Differentials of the rays of a thin lens, by the point on the lens, the pixel fixed: `lens`
+    /// from the centre of the lens, and its derivatives along two axes.
     ///
     /// Moved onto a surface these are the circle of confusion, nothing at the plane in focus. The
     /// eye of a half vector moves with it: [`Motion::eye`](crate::filter::jacobian::Motion::eye) =
@@ -117,8 +117,8 @@ impl<T: Real> RayDifferential<T> {
         Self { origin_du, origin_dv, direction_du, direction_dv }
     }
 
-    /// Of the ray that starts further along, after a fixed `distance`: the origins move with the
-    /// directions.
+    /// Differentials of the ray that starts further along, after a fixed `distance`: the origins
+    /// move with the directions.
     ///
     /// # References
     /// Igehy 1999, Eq. 10 without the change of the distance.

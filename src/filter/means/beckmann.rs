@@ -35,7 +35,7 @@ const MANY: [[f64; 2]; 12] = [
 const SHORT: f64 = 2.0;
 /// The longest piece for twenty-four points.
 const LONG: f64 = 10.0;
-/// What lies this much farther from the origin, in squares, than the nearest of all is below 2e-10
+/// Points whose squared distance exceeds the least of all by more than this contribute below 2e-10
 /// of it.
 const NEGLIGIBLE: f64 = 22.5;
 /// e^{−x²} of numbers whose square is beyond this is 0.

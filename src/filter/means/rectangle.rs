@@ -14,7 +14,7 @@ use crate::microsurface::Microsurface;
 
 /// The mean of P22 over the box `slope` ± `half_extents`, along the axes of the frame.
 ///
-/// That of [`polygon::mean_p22`](crate::filter::polygon::mean_p22); for Beckmann surfaces along the
+/// Equals [`polygon::mean_p22`](crate::filter::polygon::mean_p22); for Beckmann surfaces along the
 /// axes a product of differences of error functions.
 ///
 /// # Domain

@@ -7,8 +7,8 @@ use crate::real::{Real, Vector};
 /// The variance of slopes in each direction by the length of an average N of unit normals: (1
 /// − |N|)/|N|.
 ///
-/// Of normals spread by σ in each direction, |N| is 1/(1 + σ²) to second order in σ. It knows of no
-/// direction, and in slopes it is that about the average normal, without the factor of a tilt;
+/// For normals spread by σ in each direction, |N| is 1/(1 + σ²) to second order in σ. It knows of
+/// no direction, and in slopes it is that about the average normal, without the factor of a tilt;
 /// [`Moments`](super::Moments) know both. The two agree to σ² for isotropic spread about z.
 ///
 /// # Domain

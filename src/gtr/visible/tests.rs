@@ -84,7 +84,7 @@ fn fractions_of_d(k: usize, e: f64, place: &Place<f64>) -> (f64, f64) {
     (c / (c + g), g / (c + g))
 }
 
-/// The same of η, by the integral from the nearer end.
+/// The share at η, by the integral from the nearer end.
 fn fraction_of_aside(k: usize, (sin, cos): (f64, f64)) -> f64 {
     let from_end = cos.atan2(sin.abs());
     let total = integral(0.0, FRAC_PI_2, |x| nth(x.sin(), 2 * k + 2));
