@@ -132,7 +132,13 @@ impl fmt::Display for Error {
                 write!(f, "extinction coefficient = {value} is not a number in [0, {largest:e}]")
             }
             Self::Parameter { name, value, smallest, largest } => {
-                write!(f, "{name} = {value} is not a number in [{smallest}, {largest}]")
+                write!(f, "{name} = {value} is not ")?;
+                match (smallest > f64::MIN, largest < f64::MAX) {
+                    (false, _) => write!(f, "finite"),
+                    (true, false) => write!(f, "a number in [{smallest}, ∞)"),
+                    (true, true) if smallest >= largest => write!(f, "{largest}"),
+                    (true, true) => write!(f, "a number in [{smallest}, {largest}]"),
+                }
             }
         }
     }

@@ -170,6 +170,12 @@ pub(crate) fn converted<A: Real, B: Real>(x: A) -> B {
     B::lit(x.to_f64())
 }
 
+/// `a` if `condition`, else `b`; both are at hand.
+#[inline(always)]
+pub(crate) fn select<W>(condition: bool, a: W, b: W) -> W {
+    if condition { a } else { b }
+}
+
 macro_rules! real {
     ($t:ident, $vec2:ident, $vec3:ident, $mat2:ident, $sqrt_libm:ident) => {
         #[allow(

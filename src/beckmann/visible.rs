@@ -176,11 +176,5 @@ pub(crate) fn slopes<I: Inversion<T>, T: Real>(nu: I::Wide, [u1, u2]: [T; 2]) ->
     [converted(visible_slope::<I, T>(nu, u1)), I::slope_across(within(u2))]
 }
 
-/// `a` if `condition`, else `b`; both are at hand.
-#[inline(always)]
-fn select<W>(condition: bool, a: W, b: W) -> W {
-    if condition { a } else { b }
-}
-
 #[cfg(test)]
 mod tests;

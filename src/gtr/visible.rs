@@ -60,7 +60,7 @@ mod aside;
 use crate::elementary::polynomial::polynomial;
 use crate::elementary::{exp_m1, ln};
 use crate::gtr::integer::number;
-use crate::real::Real;
+use crate::real::{Real, select};
 
 /// The largest k.
 const MAX: usize = 8;
@@ -135,12 +135,6 @@ const FLOOR: f64 = 6.938893903907228e-18; // 2⁻⁵⁷
 const SMALL: f64 = 0.0001220703125; // 2⁻¹³
 /// A step is at most this long in λ, 2, and ends at most this much, 16 times, nearer to either end.
 const LONGEST: (f64, f64) = (2.0, 0.0625);
-
-/// `a` if `condition`, else `b`; both are at hand.
-#[inline(always)]
-fn select<W>(condition: bool, a: W, b: W) -> W {
-    if condition { a } else { b }
-}
 
 /// xⁿ.
 #[inline(always)]

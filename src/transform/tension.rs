@@ -17,7 +17,7 @@ use crate::error::Error;
 use crate::frame::Frame;
 use crate::map::invertible;
 use crate::real::{Real, Vector};
-use crate::vector::dot;
+use crate::vector::{cross, dot, minus};
 
 /// A triangle at rest and deformed, with its texture coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,14 +37,6 @@ struct Axes {
     z: [f64; 3],
 }
 
-const fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-const fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
 /// v/|v|, or none where |v|² is no normal number.
 fn direction(v: [f64; 3]) -> Option<[f64; 3]> {
     let length2 = dot(v, v);
@@ -53,7 +45,7 @@ fn direction(v: [f64; 3]) -> Option<[f64; 3]> {
 
 fn edges<T: Real>(corners: [T::Vec3; 3]) -> [[f64; 3]; 2] {
     let [p, q, r] = corners.map(|corner| corner.into().map(T::to_f64));
-    [difference(q, p), difference(r, p)]
+    [minus(q, p), minus(r, p)]
 }
 
 /// The axes of a triangle of these edges; `uv` are those of the texture.

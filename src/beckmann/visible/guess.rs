@@ -1,9 +1,8 @@
 //! The guess of ξ. Its coefficients come from tests/reference/beckmann_visible_guess.py.
 
-use super::select;
 use crate::elementary::ln_normal;
 use crate::elementary::polynomial::polynomial;
-use crate::real::Real;
+use crate::real::{Real, select};
 
 /// B of the guess for ν < 0: its coefficient of √a by powers of √(√π·ierfcx n). Error of w ≤
 /// 0.031/(1 + n).

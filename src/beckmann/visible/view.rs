@@ -2,10 +2,9 @@
 
 use super::fit::Fit;
 use super::guess::{HIGHEST, LEAST, Outset};
-use super::select;
 use crate::elementary::exp_normal;
 use crate::elementary::polynomial::polynomial;
-use crate::real::{Real, converted};
+use crate::real::{Real, converted, select};
 
 /// Farther below the horizon than this, slope and view direction agree to rounding: the slope is
 /// the horizon's.

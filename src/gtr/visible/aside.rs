@@ -7,11 +7,11 @@
 //! exponent drifts from its value at η = 0 to 1/(2n + 1). A polynomial in x/(x + 16), x = −ln 4u(1
 //! − u), gives the exponent. One step follows, the Taylor series of η in N to the third power.
 
-use super::{MAX, power, select};
+use super::{MAX, power};
 use crate::elementary::polynomial::polynomial;
 use crate::elementary::{exp_m1, ln, sin_cos_of_turn};
 use crate::gtr::integer::number;
-use crate::real::Real;
+use crate::real::{Real, select};
 
 /// The exponent of the guess, of the k in the row k − 1, constant term first, and the relative
 /// error of the tail 1 − N/½π at the guess: see tests/reference/gtr_visible_guess.py.
