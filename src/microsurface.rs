@@ -17,6 +17,14 @@ use crate::vector::{dot, normalized, positive_part};
 /// The type of the map is its cost: [`Isotropic`](crate::Isotropic) (one number),
 /// [`AxisAligned`](crate::AxisAligned) (two), [`Linear`] (three).
 ///
+/// | | |
+/// |---|---|
+/// | build | [`Ggx::isotropic`](crate::Ggx::isotropic), [`anisotropic`](crate::Ggx::anisotropic), [`rotated`](crate::Ggx::rotated), [`from_roughness_matrix`](crate::Ggx::from_roughness_matrix); the same of [`Beckmann`](crate::Beckmann) and [`Gtr`](crate::Gtr) |
+/// | evaluate | [`d`](Ndf::d), [`g1`](Ndf::g1), [`g2`](Ndf::g2), [`vndf`](Ndf::vndf), [`sigma`](Ndf::sigma), [`lambda`](Ndf::lambda), [`p22`](Ndf::p22) |
+/// | sample | [`sample_vndf`](SampleVndf::sample_vndf), [`sample_d`](SampleNdf::sample_d) |
+/// | move | [`transformed`](Self::transformed), [`stretched`](Self::stretched) |
+/// | filter | [`filtered`](Self::filtered), and the module [`filter`](crate::filter) |
+///
 /// # Example
 /// ```
 /// use microsurface::{Ggx, Ndf, SampleVndf, glam::{Vec2, Vec3}};
@@ -101,7 +109,8 @@ impl<P: Copy, M: Map> Microsurface<P, M> {
     /// Stretching a surface to twice its length along x makes it half as rough along x.
     /// ```
     /// use microsurface::{Ggx, Ndf, glam::{Mat2, Vec2, Vec3}};
-    /// let stretched = Ggx::isotropic(0.4_f32)?.transformed(Mat2::from_diagonal(Vec2::new(2.0, 1.0)))?;
+    /// let twice = Mat2::from_diagonal(Vec2::new(2.0, 1.0));
+    /// let stretched = Ggx::isotropic(0.4_f32)?.transformed(twice)?;
     /// let wm = Vec3::new(0.3, 0.4, 0.866).normalize();
     /// assert!((stretched.d(wm) / Ggx::anisotropic(0.2, 0.4)?.d(wm) - 1.0).abs() < 1e-5);
     /// # Ok::<(), microsurface::Error>(())

@@ -45,7 +45,7 @@ pub fn alpha_burley2012<T: Real>(roughness: T) -> Result<T, Error> {
 /// # Example
 /// ```
 /// use microsurface::roughness::{alpha_burley2012_clamped, mirror_alpha};
-/// assert_eq!([0.0, 0.5, 1.2].map(alpha_burley2012_clamped::<f32>), [mirror_alpha(), 0.25, 1.0]);
+/// assert_eq!([0.0_f32, 0.5, 1.2].map(alpha_burley2012_clamped), [mirror_alpha(), 0.25, 1.0]);
 /// ```
 #[inline(always)]
 #[must_use]

@@ -96,7 +96,12 @@ filtered!(
     /// use microsurface::filter::{Footprint, covariance::variance_of_box};
     /// use microsurface::{Beckmann, Ndf, glam::{Vec2, Vec3}};
     /// let surface = Beckmann::isotropic(0.01_f32)?;
-    /// let footprints = Footprints { du_x: &[0.02, 0.0], du_y: &[0.0, 0.0], dv_x: &[0.01, 0.0], dv_y: &[0.01, 0.0] };
+    /// let footprints = Footprints {
+    ///     du_x: &[0.02, 0.0],
+    ///     du_y: &[0.0, 0.0],
+    ///     dv_x: &[0.01, 0.0],
+    ///     dv_y: &[0.01, 0.0],
+    /// };
     /// let filtered = Varied::new(&surface, Filtered::new(footprints, variance_of_box())?);
     /// let mut d = [0.0; 2];
     /// filtered.d_batch(Directions { x: &[0.0; 2], y: &[0.0; 2], z: &[1.0; 2] }, &mut d);

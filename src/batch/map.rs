@@ -22,7 +22,12 @@ use crate::batch::stages::{Body, without_normals};
 /// use microsurface::batch::{self, Directions, Footprints};
 /// use microsurface::filter::{Footprint, deferred::{self, Bound, Kernel}};
 /// use microsurface::{Ggx, bsdf::RoughConductor, fresnel::Schlick};
-/// let footprints = Footprints { du_x: &[0.1_f32, 0.0], du_y: &[0.0, 0.1], dv_x: &[0.0, 0.1], dv_y: &[0.1, 0.0] };
+/// let footprints = Footprints {
+///     du_x: &[0.1_f32, 0.0],
+///     du_y: &[0.0, 0.1],
+///     dv_x: &[0.0, 0.1],
+///     dv_y: &[0.1, 0.0],
+/// };
 /// let footprint = |[ux, uy, vx, vy]: [f32; 4]| Footprint::new([ux, uy], [vx, vy]);
 /// let kernel = Kernel::tokuyoshi2021();
 /// let mut alpha = [0.0; 2];

@@ -19,7 +19,7 @@ use crate::transform::Transformed;
 /// Code that is generic over a distribution and its batches asks for `Material<Local = N>`, and for
 /// [`StagedVndf`](crate::batch::StagedVndf) where it samples visible normals.
 /// ```
-/// use microsurface::batch::{Directions, Material, NdfBatch, Numbers, ReflectionBatch, Samples, StagedVndf};
+/// use microsurface::batch::{Directions, Material, NdfBatch, ReflectionBatch, StagedVndf};
 /// use microsurface::{bsdf::RoughConductor, fresnel::Schlick};
 /// fn shade<N>(surface: N, wo: Directions<f32>, wi: Directions<f32>, f: &mut [f32], d: &mut [f32])
 /// where

@@ -89,7 +89,8 @@ impl<N: StagedVndf> Body<N, Sampled<N>> for VisibleNormal {
 /// let u = Numbers { x: &[0.3, 0.5], y: &[0.7, 0.1] };
 /// let (mut x, mut y, mut z) = ([0.0; 2], [0.0; 2], [0.0; 2]);
 /// surface.sample_vndf_batch(wo, u, DirectionsMut { x: &mut x, y: &mut y, z: &mut z });
-/// assert_eq!(Vec3::new(x[0], y[0], z[0]), surface.sample_vndf(Vec3::new(0.6, 0.0, 0.8), Vec2::new(0.3, 0.7)));
+/// let one = surface.sample_vndf(Vec3::new(0.6, 0.0, 0.8), Vec2::new(0.3, 0.7));
+/// assert_eq!(Vec3::new(x[0], y[0], z[0]), one);
 /// # Ok::<(), microsurface::Error>(())
 /// ```
 pub trait NdfBatch: Materials {

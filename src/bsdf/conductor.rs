@@ -33,7 +33,8 @@ use crate::vector::dot;
 /// # Example
 /// ```
 /// use microsurface::{Ggx, bsdf::RoughConductor, fresnel::Schlick, glam::{Vec2, Vec3}};
-/// let gold = RoughConductor::new(Ggx::isotropic(0.2_f32)?, Schlick::new(Vec3::new(1.0, 0.78, 0.34))?);
+/// let f0 = Schlick::new(Vec3::new(1.0, 0.78, 0.34))?;
+/// let gold = RoughConductor::new(Ggx::isotropic(0.2_f32)?, f0);
 /// let wo = Vec3::new(0.6, 0.0, 0.8);
 /// let sample = gold.sample(wo, Vec2::new(0.4, 0.6)).expect("above the horizon");
 /// let f = gold.eval(sample.wi, wo);
@@ -204,7 +205,8 @@ where
     ///
     /// # Example
     /// ```
-    /// use microsurface::{Ggx, bsdf::RoughConductor, filter::Footprint, fresnel::Schlick, glam::{Vec2, Vec3}};
+    /// use microsurface::bsdf::RoughConductor;
+    /// use microsurface::{Ggx, filter::Footprint, fresnel::Schlick, glam::{Vec2, Vec3}};
     /// let chrome = RoughConductor::new(Ggx::isotropic(0.01_f32)?, Schlick::new(0.6_f32)?);
     /// let (wi, wo) = (Vec3::new(0.6, 0.0, 0.8), Vec3::new(-0.535, 0.0, 0.8448521));
     /// // The highlight is beside the centre of the pixel, and within it.

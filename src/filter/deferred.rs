@@ -232,7 +232,8 @@ pub fn isotropic<T: Real>(alpha: T, footprint: Footprint<T>, kernel: &Kernel<T>,
 /// ```
 /// use microsurface::filter::{Footprint, deferred::{Kernel, max_eigenvalue}};
 /// use microsurface::glam::Vec2;
-/// let footprint = Footprint::new(Vec2::new(0.3, 0.4), Vec2::new(-0.04, 0.03)); // across each other
+/// // Across each other.
+/// let footprint = Footprint::new(Vec2::new(0.3, 0.4), Vec2::new(-0.04, 0.03));
 /// let alpha = max_eigenvalue(0.1, footprint, &Kernel::tokuyoshi2019());
 /// assert!((alpha * alpha - (0.01 + 2.0 * 0.25 * 0.25)).abs() < 1e-6);
 /// ```
@@ -314,7 +315,8 @@ pub fn rectangle_maximum<T: Real>(alpha: T, footprint: Footprint<T>, kernel: &Ke
 /// ```
 /// use microsurface::{filter::deferred::quad_in_slopes, frame::Frame, glam::Vec3};
 /// // A cylinder along y: from one column to the next the normal turns by 0.1.
-/// let (left, right) = (Frame::from_normal(Vec3::Z), Frame::from_normal(Vec3::new(0.1_f32.sin(), 0.0, 0.1_f32.cos())));
+/// let left = Frame::from_normal(Vec3::Z);
+/// let right = Frame::from_normal(Vec3::new(0.1_f32.sin(), 0.0, 0.1_f32.cos()));
 /// let [du, dv] = quad_in_slopes(&[left, right, left, right]).steps();
 /// assert!((du.x.abs() - 2.0 * 0.05_f32.tan()).abs() < 1e-6 && dv.length() < 1e-6);
 /// ```

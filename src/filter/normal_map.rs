@@ -85,7 +85,8 @@ impl<T: Real> Moments<T> {
     /// # Example
     /// ```
     /// use microsurface::{filter::normal_map::Moments, glam::Vec3};
-    /// let texels = [Vec3::new(-0.5, 0.0, 1.0), Vec3::X, Vec3::new(0.5, 0.0, -1.0)].map(Moments::of_normal);
+    /// let texels = [Vec3::new(-0.5, 0.0, 1.0), Vec3::X, Vec3::new(0.5, 0.0, -1.0)];
+    /// let texels = texels.map(Moments::of_normal);
     /// assert_eq!(texels.map(|texel| texel.is_finite()), [true, false, false]);
     /// assert_eq!(Moments::mean(texels), Some(texels[0]));
     /// ```
@@ -284,7 +285,8 @@ impl<T: Real> Moments<T> {
     /// # Example
     /// ```
     /// use microsurface::{filter::{Covariance, normal_map::Moments}, glam::Vec2};
-    /// let tilted_by_45_degrees = Moments::new(Vec2::new(1.0, 0.0), Covariance::isotropic(0.01_f32));
+    /// let kernel = Covariance::isotropic(0.01_f32);
+    /// let tilted_by_45_degrees = Moments::new(Vec2::new(1.0, 0.0), kernel);
     /// let (_, covariance) = tilted_by_45_degrees.tilted();
     /// let [along, _, across] = covariance.entries();
     /// assert!((along - 0.01 / 4.0).abs() < 1e-8 && (across - 0.01 / 2.0).abs() < 1e-8);

@@ -253,7 +253,8 @@ impl<T: Real> Gtr<T, ()> {
     /// ```
     /// use microsurface::{Gtr, Ndf, glam::Vec3};
     /// let w = Vec3::new(0.8, 0.0, 0.6);
-    /// let (few, many) = (Gtr::heavy_tailed::<4>(0.2_f32, 1.5)?, Gtr::heavy_tailed::<12>(0.2_f32, 1.5)?);
+    /// let few = Gtr::heavy_tailed::<4>(0.2_f32, 1.5)?;
+    /// let many = Gtr::heavy_tailed::<12>(0.2_f32, 1.5)?;
     /// assert!((few.g1(w, w) - many.g1(w, w)).abs() < 1e-6);
     /// assert!(Gtr::heavy_tailed::<8>(0.2_f32, 2.5).is_err());
     /// # Ok::<(), microsurface::Error>(())

@@ -16,7 +16,8 @@
 //! ```
 //! use microsurface::batch::{Alphas, Directions, ReflectionBatch, Varied};
 //! use microsurface::{Ggx, bsdf::RoughConductor, fresnel::Schlick, glam::Vec3};
-//! let metal = RoughConductor::new(Ggx::isotropic(0.2_f32)?, Schlick::new(Vec3::new(1.0, 0.78, 0.34))?);
+//! let f0 = Schlick::new(Vec3::new(1.0, 0.78, 0.34))?;
+//! let metal = RoughConductor::new(Ggx::isotropic(0.2_f32)?, f0);
 //! let wi = Directions { x: &[-0.6, 0.0], y: &[0.0, 0.6], z: &[0.8, 0.8] };
 //! let wo = Directions { x: &[0.6, 0.0], y: &[0.0, -0.6], z: &[0.8, 0.8] };
 //! let mut f = [Vec3::ZERO; 2];

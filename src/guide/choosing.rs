@@ -43,7 +43,8 @@
 //!     Box::new(Beckmann::anisotropic(0.1, 0.4)?),
 //!     Box::new(Gtr::isotropic(0.2, 1.5)?),
 //! ];
-//! let materials = surfaces.map(|surface| RoughConductor::new(surface, Schlick::new(0.9_f32).unwrap()));
+//! let f0 = Schlick::new(0.9_f32)?;
+//! let materials = surfaces.map(|surface| RoughConductor::new(surface, f0));
 //! let wo = Vec3::new(0.6, 0.0, 0.8);
 //! assert!(materials.iter().all(|material| material.sample(wo, Vec2::new(0.3, 0.7)).is_some()));
 //! # Ok::<(), microsurface::Error>(())

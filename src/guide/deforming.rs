@@ -5,7 +5,8 @@
 //! ```
 //! use microsurface::{Ggx, Gtr, glam::{Mat2, Vec2, Vec3}, transform::tension::Triangle};
 //! let stretched = Ggx::isotropic(0.4_f32)?.stretched(0.5)?; // twice as long along x, half across
-//! let sheared = Ggx::isotropic(0.4_f32)?.transformed(Mat2::from_cols(Vec2::X, Vec2::new(0.5, 1.0)))?;
+//! let shear = Mat2::from_cols(Vec2::X, Vec2::new(0.5, 1.0));
+//! let sheared = Ggx::isotropic(0.4_f32)?.transformed(shear)?;
 //! // A triangle of a mesh, drawn out to twice its length along u.
 //! let rest = [Vec3::ZERO, Vec3::X, Vec3::Y];
 //! let deformed = [Vec3::ZERO, Vec3::X * 2.0, Vec3::Y];

@@ -4,13 +4,14 @@
 //! ```
 //! use microsurface::bsdf::RoughConductor;
 //! use microsurface::{Ggx, frame::Frame, fresnel::Schlick, glam::{Vec2, Vec3}};
-//! let material = RoughConductor::new(Ggx::isotropic(0.2_f32)?, Schlick::new(Vec3::new(1.0, 0.78, 0.34))?);
-//! let (normal, to_viewer, to_lamp) = (Vec3::Y, Vec3::new(0.6, 0.8, 0.0), Vec3::new(0.0, 0.6, 0.8));
-//! let frame = Frame::from_normal(normal);
+//! let f0 = Schlick::new(Vec3::new(1.0, 0.78, 0.34))?;
+//! let material = RoughConductor::new(Ggx::isotropic(0.2_f32)?, f0);
+//! let (to_viewer, to_lamp) = (Vec3::new(0.6, 0.8, 0.0), Vec3::new(0.0, 0.6, 0.8));
+//! let frame = Frame::from_normal(Vec3::Y);
 //! let wo = frame.to_local(to_viewer);
 //! // The lamp's own sample: f times the cosine, weighed against the density of the other way.
 //! let (wi, pdf_of_lamp) = (frame.to_local(to_lamp), 0.5);
-//! let weight = pdf_of_lamp * pdf_of_lamp / (pdf_of_lamp * pdf_of_lamp + material.pdf(wi, wo).powi(2));
+//! let weight = pdf_of_lamp / (pdf_of_lamp + material.pdf(wi, wo)); // the balance heuristic
 //! let direct = material.eval(wi, wo) * wi.z.max(0.0) * weight / pdf_of_lamp;
 //! // The material's sample: take its own weight and pdf, and do not evaluate them again.
 //! let mut throughput = Vec3::ONE;

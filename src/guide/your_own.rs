@@ -5,7 +5,8 @@
 //! [`RoughConductor::eval`](crate::bsdf::RoughConductor::eval).
 //! ```
 //! use microsurface::bsdf::{AllNormals, RoughConductor};
-//! use microsurface::{Ndf, SampleNdf, fresnel::Schlick, glam::{Vec2, Vec3}, transform::Transformed};
+//! use microsurface::glam::{Mat2, Vec2, Vec3};
+//! use microsurface::{Ndf, SampleNdf, fresnel::Schlick, transform::Transformed};
 //! /// Facets of equal area in all directions of the hemisphere.
 //! #[derive(Clone, Copy)]
 //! struct Uniform;
@@ -31,7 +32,7 @@
 //!     assert!((f * sample.wi.z / sample.pdf - sample.weight).abs() < 1e-5);
 //! }
 //! // Drawn out to twice its length along x.
-//! let drawn = Transformed::new(Uniform, microsurface::glam::Mat2::from_diagonal(Vec2::new(2.0, 1.0)))?;
+//! let drawn = Transformed::new(Uniform, Mat2::from_diagonal(Vec2::new(2.0, 1.0)))?;
 //! assert!(drawn.d(Vec3::Z) > 0.0);
 //! # Ok::<(), microsurface::Error>(())
 //! ```

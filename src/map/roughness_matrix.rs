@@ -126,7 +126,8 @@ impl<T: Real> RoughnessMatrix<T> {
     /// A scratch 1000 times as long as it is wide.
     /// ```
     /// use microsurface::{Ggx, Ndf, RoughnessMatrix, glam::Vec3};
-    /// let scratched = Ggx::from_roughness_matrix(RoughnessMatrix::rotated(1.0, 0.001_f32, 1.0225885)?);
+    /// let matrix = RoughnessMatrix::rotated(1.0, 0.001_f32, 1.0225885)?;
+    /// let scratched = Ggx::from_roughness_matrix(matrix);
     /// let peak = 1.0 / (core::f32::consts::PI * 1.0 * 0.001);
     /// assert!((scratched.d(Vec3::Z) / peak - 1.0).abs() < 3e-7);
     /// # Ok::<(), microsurface::Error>(())

@@ -11,8 +11,8 @@ use crate::vector::{at_least_cosine, dot, normalized};
 /// Any distribution, moved by a 2×2 matrix of the tangent plane.
 ///
 /// Nothing is asked of the distribution but [`Ndf`], so it may be anisotropic, discrete, measured
-/// or a user's own. A [`Microsurface`](crate::Microsurface) costs no more moved than at rest, by its own
-/// [`transformed`](crate::Microsurface::transformed); this gives the same.
+/// or a user's own. A [`Microsurface`](crate::Microsurface) costs no more moved than at rest, by
+/// its own [`transformed`](crate::Microsurface::transformed); this gives the same.
 ///
 /// # Domain
 /// Unit vectors; those of the distribution at rest are formed with a relative error of a few ε

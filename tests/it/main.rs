@@ -15,6 +15,7 @@ mod bad_input;
 mod elementary;
 mod ends;
 mod filter;
+mod floors;
 mod hammer;
 mod identities;
 mod properties;

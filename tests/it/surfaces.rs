@@ -319,9 +319,6 @@ impl<T: Real> Ndf for Halves<T> {
     fn sigma(&self, w: Vec3<Self>) -> T {
         T::HALF * (self.0.sigma(w) + self.1.sigma(w))
     }
-    fn lambda(&self, w: Vec3<Self>) -> T {
-        T::HALF * (self.0.lambda(w) + self.1.lambda(w))
-    }
 }
 
 impl<T: Real> SampleNdf for Halves<T> {

@@ -43,7 +43,8 @@ use crate::vector::{cross, minus, plus_scaled, unit_and_length, unit_step};
 /// ```
 /// use microsurface::filter::{jacobian::{Curvature, HalfVector, Motion}, ray::RayDifferential};
 /// use microsurface::{Beckmann, frame::Frame, glam::Vec3};
-/// // A ball of radius 1 about the origin, seen from z = 5 by pixels of a hundredth, lit from the side.
+/// // A ball of radius 1 about the origin, seen from z = 5 by pixels of a hundredth and lit from
+/// // the side.
 /// let (eye, point, light) = (Vec3::new(0.0, 0.0, 5.0), Vec3::Z, Vec3::new(3.0, 0.0, 4.0));
 /// let pixel = RayDifferential::pinhole(-Vec3::Z, Vec3::X / 100.0, Vec3::Y / 100.0);
 /// let [du, dv] = pixel.onto_plane(-Vec3::Z, 4.0, Vec3::Z);
@@ -193,11 +194,13 @@ impl<T: Real> HalfVector<T> {
     ///
     /// # Example
     /// ```
-    /// use microsurface::{filter::jacobian::{Curvature, HalfVector}, frame::Frame, glam::{DMat2, DVec3}};
+    /// use microsurface::filter::jacobian::{Curvature, HalfVector};
+    /// use microsurface::{frame::Frame, glam::{DMat2, DVec3}};
     /// let frame = Frame::from_normal(DVec3::Z);
     /// let head_on = HalfVector::far(&frame, DVec3::Z, DVec3::Z);
     /// // The facet that mirrors must lean by as much as the surface leans the other way.
-    /// assert_eq!(head_on.slope_per_point(Curvature::sphere(2.0)), DMat2::from_diagonal([0.5, 0.5].into()));
+    /// let half = DMat2::from_diagonal([0.5, 0.5].into());
+    /// assert_eq!(head_on.slope_per_point(Curvature::sphere(2.0)), half);
     /// ```
     ///
     /// # References

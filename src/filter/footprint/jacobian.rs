@@ -172,7 +172,8 @@ pub fn disk_to_slope<T: Real>(wm: impl Vector<3, Scalar = T>) -> T::Mat2 {
 ///
 /// # Example
 /// ```
-/// use microsurface::{filter::jacobian::{disk_to_slope, sphere_to_disk, sphere_to_slope}, glam::DVec3};
+/// use microsurface::filter::jacobian::{disk_to_slope, sphere_to_disk, sphere_to_slope};
+/// use microsurface::glam::DVec3;
 /// let m = DVec3::new(0.48, 0.64, 0.6);
 /// let chain = disk_to_slope(m) * sphere_to_disk(m);
 /// assert!(sphere_to_slope(m).abs_diff_eq(chain, 1e-14));

@@ -22,7 +22,8 @@ use crate::vector::{cross, minus, plus_scaled, unit_and_length, unit_step};
 ///
 /// # Example
 /// ```
-/// use microsurface::{filter::jacobian::{Curvature, HalfVector, Motion}, frame::Frame, glam::DVec3};
+/// use microsurface::filter::jacobian::{Curvature, HalfVector, Motion};
+/// use microsurface::{frame::Frame, glam::DVec3};
 /// // On a mirror ball of radius 2, lit and seen from afar along the normal.
 /// let frame = Frame::from_normal(DVec3::Z);
 /// let half = HalfVector::far(&frame, DVec3::Z, DVec3::Z);
@@ -101,7 +102,8 @@ impl<T: Real> Motion<T> {
     /// # Example
     /// ```
     /// use microsurface::{filter::jacobian::Motion, frame::Frame, glam::DVec3};
-    /// // A wave of height sin(x)/2 along x, on a plane: at x = 0 its normal is (−½, 0, 1), and turns over no further.
+    /// // A wave of height sin(x)/2 along x, on a plane: at x = 0 its normal is (−½, 0, 1), and
+    /// // turns over no further.
     /// let plane = Frame::from_normal(DVec3::Z);
     /// let motion = Motion { point: DVec3::X, ..Motion::default() };
     /// let (m, step) = (DVec3::new(-0.5, 0.0, 1.0), DVec3::ZERO);
@@ -192,7 +194,8 @@ impl<T: Real> Curvature<T> {
 /// let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
 /// let mesh = InterpolatedNormals::new(corners, [DVec3::Z, DVec3::new(0.6, 0.0, 0.8), DVec3::Z]);
 /// assert_eq!(mesh.normal([1.0, 0.0, 0.0]), DVec3::Z);
-/// assert!(mesh.normal_step([1.0, 0.0, 0.0], DVec3::X).abs_diff_eq(DVec3::new(0.6, 0.0, 0.0), 1e-15));
+/// let step = mesh.normal_step([1.0, 0.0, 0.0], DVec3::X);
+/// assert!(step.abs_diff_eq(DVec3::new(0.6, 0.0, 0.0), 1e-15));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InterpolatedNormals<T: Real> {

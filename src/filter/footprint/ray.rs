@@ -23,7 +23,8 @@ use crate::vector::{minus, plus_scaled, unit_and_length, unit_step};
 /// let pixel = RayDifferential::pinhole(-DVec3::Z, DVec3::X / 100.0, DVec3::Y / 100.0);
 /// let wall = DVec3::new(1.0, 0.0, 1.0).normalize();
 /// let [du, dv] = pixel.onto_plane(-DVec3::Z, 3.0, wall);
-/// assert!(du.abs_diff_eq(DVec3::new(0.03, 0.0, -0.03), 1e-15) && dv.abs_diff_eq(DVec3::Y * 0.03, 1e-15));
+/// assert!(du.abs_diff_eq(DVec3::new(0.03, 0.0, -0.03), 1e-15));
+/// assert!(dv.abs_diff_eq(DVec3::Y * 0.03, 1e-15));
 /// ```
 ///
 /// # References

@@ -26,7 +26,8 @@ use crate::real::{Real, Vector};
 /// use microsurface::{Ggx, filter::{Covariance, normal_map::variance_toksvig2005}, glam::Vec3};
 /// let bumps = Vec3::new(0.2_f32, 0.0, 1.0).normalize() + Vec3::new(-0.2, 0.0, 1.0).normalize();
 /// let variance: f32 = variance_toksvig2005(0.5 * bumps);
-/// assert!((variance - (1.04_f32.sqrt() - 1.0)).abs() < 1e-6); // half of 0.2²: all of it is along x
+/// // Half of 0.2²: all of it is along x.
+/// assert!((variance - (1.04_f32.sqrt() - 1.0)).abs() < 1e-6);
 /// let surface = Ggx::isotropic(0.1_f32)?.filtered_isotropic(variance)?;
 /// # Ok::<(), microsurface::Error>(())
 /// ```
