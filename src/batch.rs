@@ -10,7 +10,7 @@
 //!
 //! | | |
 //! |---|---|
-//! | [`NdfBatch`] | D, σ, Λ, G1, G2, D_w, all and visible normals, of any [`Ndf`](crate::Ndf) |
+//! | [`NdfBatch`] | D, σ, Λ, G1, G2, D_w, all and visible normals, of any distribution; [`Custom`] for your own |
 //! | [`ReflectionBatch`] | f, density, both together, and samples of a [`RoughConductor`](crate::bsdf::RoughConductor) |
 //! | [`map()`] | any function: mixtures of BSDFs, means over footprints, elementary functions; [`map_inlined`] |
 //!
@@ -19,8 +19,9 @@
 //! one of its elements, so that the rest takes the same path: a batch costs whole blocks of 64, so
 //! that scalar calls are cheaper for fewer than 17 (GGX's reflection) to 35 elements (Beckmann's
 //! visible normals). An element never depends on its neighbours: NaN stays in its lane. Materials
-//! are `Copy`; one that is not is passed as `&material`. A block of samples with a view from below
-//! the horizon, a NaN, or a facet at the very edge of visibility takes twice the time of others.
+//! are `Copy`; a distribution of your own that is not enters as `Custom(&distribution)`. A block of
+//! samples with a view from below the horizon, a NaN, or a facet at the very edge of visibility
+//! takes twice the time of others.
 //!
 //! # Panics
 //! Where slices differ in length, at entry: nothing has been written then. There is no other panic.
