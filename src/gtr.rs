@@ -137,7 +137,7 @@ impl<T: Real, K: Masking<T>> Gtr<T, K> {
     }
 }
 
-/// How the projected area of a GTR is computed.
+/// The way the projected area of a GTR is computed. Sealed: the kinds in this module.
 pub trait Masking<T: Real>: Forms {
     /// The mask for the width α, checked by the caller, and the exponent γ.
     ///

@@ -71,15 +71,14 @@ pub trait Ndf {
     /// At least max(0, w.z).
     fn sigma(&self, w: Vec3<Self>) -> Self::Scalar;
 
-    /// Smith's Λ(w) = σ(w)/w.z − 1, evaluated in a form that does not cancel.
+    /// Smith's Λ(w) = σ(w)/w.z − 1, evaluated in a form that does not cancel: by default
+    /// |w.z| Λ = σ of the direction below the horizon.
     ///
     /// # Returns
     /// 0 … ∞ above the horizon.
     ///
     /// # Special cases
     /// w.z = 0 → ∞; w.z < 0 → −1 − Λ(−w), as in Heitz 2016.
-    ///
-    /// The default is |w.z| Λ = σ of the direction below the horizon, which does not cancel.
     #[inline(always)]
     fn lambda(&self, w: Vec3<Self>) -> Self::Scalar {
         let [x, y, z]: [Self::Scalar; 3] = w.into();

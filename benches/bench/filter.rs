@@ -1,4 +1,4 @@
-//! What does a filter cost per pixel: knowing the footprint, making the filtered surface,
+//! The cost of a filter per pixel: knowing the footprint, making the filtered surface,
 //! evaluating it?
 //!
 //! Every call has its own pixel, so that nothing of a filter is made once for many: steps of the

@@ -1,4 +1,4 @@
-//! What do the projected area σ, Smith's Λ and the mask G1 cost, under which map, and beside the
+//! The cost of the projected area σ, Smith's Λ and the mask G1, under which map, and beside the
 //! textbook's forms?
 
 use criterion::measurement::WallTime;

@@ -1,4 +1,4 @@
-//! What does single reflection cost: evaluation, density and sampling of a rough conductor with a
+//! The cost of single reflection: evaluation, density and sampling of a rough conductor with a
 //! scalar Schlick term?
 //!
 //! GGX and Beckmann are sampled by visible normals, GTR by all normals, with or without uniform
@@ -91,7 +91,7 @@ fn conductors<T: Spectrum<Scalar = T> + Real, N: Ndf<Scalar = T> + Copy, S: Copy
     surfaces.iter().map(|&surface| RoughConductor::new(surface, fresnel).sampled_by(sampling)).collect()
 }
 
-/// What is asked about a sampler, with the types of the surface and of the choice of normals
+/// A question about a sampler, with the types of the surface and of the choice of normals
 /// hidden.
 trait Sampler<T: Real> {
     fn pdf(&self, group: &mut BenchmarkGroup<'_, WallTime>, id: (&str, &str), pairs: &Pairs<T>);

@@ -1,4 +1,4 @@
-//! What an element of a batch costs as the batch grows, as threads share it, and as its materials
+//! The cost of an element of a batch as the batch grows, as threads share it, and as its materials
 //! differ, in width too.
 //!
 //! ```text

@@ -1,5 +1,5 @@
-//! What is rendered: meshes, each with a cover that says of what material it is from place to
-//! place.
+//! The scene that is rendered: meshes, each with a cover that says of what material it is from
+//! place to place.
 
 use microsurface::frame::Frame;
 use microsurface::glam::{Vec2, Vec3};

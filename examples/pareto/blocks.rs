@@ -23,7 +23,7 @@ type Block<T, const N: usize> = [[T; BLOCK]; N];
 #[derive(Clone)]
 pub(crate) struct Arguments<T, const N: usize>(Rc<[Block<T, N>]>);
 
-/// What is called with a material and arguments. No closure: that is inlined into only one of its
+/// A call of a material with arguments. No closure: that is inlined into only one of its
 /// callers, and a loop over calls is no vector code.
 pub(crate) trait Call<M, T, const N: usize, const OUT: usize>: Copy + 'static {
     fn call(self, material: &M, arguments: [T; N]) -> [T; OUT];

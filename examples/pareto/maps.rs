@@ -1,5 +1,5 @@
-//! What a map and a scalar cost: the same isotropic surfaces under each type of map, in f32 and
-//! f64, against 50-digit values.
+//! The cost of a map and of a scalar: the same isotropic surfaces under each type of map, in f32
+//! and f64, against 50-digit values.
 //!
 //! Errors are relative: of D within 5 α of the normal, of σ above the horizon; GTR's σ by 8 nodes.
 

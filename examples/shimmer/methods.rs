@@ -80,8 +80,8 @@ fn forward<P: MeanOverParallelogram<f32> + ShapeInvariant + 'static>(surface: Su
     ]
 }
 
-/// What only GGX has or needs: the filter of projected space, and the Gaussian one that keeps its
-/// tail.
+/// Filters that only GGX has or needs: the filter of projected space, and the Gaussian one that
+/// keeps its tail.
 fn only_ggx(surface: Surface<Ggx>) -> Vec<Method> {
     let variance = variance_tokuyoshi2021::<f32>();
     vec![

@@ -47,7 +47,7 @@ fn width(height: usize) -> usize {
     height * 16 / 10
 }
 
-/// What `pixel` makes of each pixel of a region, row by row, on all cores. The result does not
+/// The results of `pixel` for each pixel of a region, row by row, on all cores. The result does not
 /// depend on their number.
 pub(crate) fn each_pixel<T: Send>(region: Region, pixel: impl Fn(usize, usize) -> T + Sync) -> Vec<T> {
     let threads = thread::available_parallelism().map_or(1, core::num::NonZero::get);

@@ -15,8 +15,8 @@ use crate::sampled::{Mean, means};
 use crate::scene::Scene;
 use crate::timing::nanoseconds;
 
-/// Of the pictures, in pixels: a multiple of 20, so that pictures and their quarters are of whole
-/// 2×2 quads.
+/// The size of the pictures, in pixels: a multiple of 20, so that pictures and their quarters are
+/// of whole 2×2 quads.
 const HEIGHT: usize = 200;
 
 /// One line of a table.

@@ -218,8 +218,8 @@ fn sampled(alpha: f32, gamma: f32) -> Result<[Box<dyn Material>; SAMPLINGS.len()
     Ok([Box::new(visible), Box::new(visible.sampled_by(AllNormals)), Box::new(visible.sampled_by(mixture))])
 }
 
-/// What the vertex reflects of the environment, estimated by one sample of the material and, with
-/// `light`, one of the environment.
+/// The light that the vertex reflects of the environment, estimated by one sample of the material
+/// and, with `light`, one of the environment.
 fn reflected(
     scene: &Scene,
     vertex: &Vertex,

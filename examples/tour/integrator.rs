@@ -102,8 +102,8 @@ pub(crate) fn radiance(
     sum
 }
 
-/// What the vertex reflects towards `wo` of the light from a direction that the environment
-/// samples, weighed against the directions that the material samples.
+/// The light that the vertex reflects towards `wo` of the light from a direction that the
+/// environment samples, weighed against the directions that the material samples.
 pub(crate) fn by_environment(
     scene: &Scene,
     vertex: &Vertex,
@@ -127,10 +127,10 @@ pub(crate) fn by_environment(
 
 /// The contribution of a path, made smaller where its largest channel exceeds the limit.
 ///
-/// What a rough surface receives by way of a smooth one, a caustic, arrives along few paths of
-/// great weight: bright dots at few samples. The limit grows with the least density along the path,
-/// so that it darkens caustics and leaves mirror images as they are, and with the number of
-/// samples, so that the bias vanishes in the end. The table has no such limit.
+/// The light that a rough surface receives by way of a smooth one, a caustic, arrives along few
+/// paths of great weight: bright dots at few samples. The limit grows with the least density along
+/// the path, so that it darkens caustics and leaves mirror images as they are, and with the number
+/// of samples, so that the bias vanishes in the end. The table has no such limit.
 fn limited(contribution: Vec3, limit: f32) -> Vec3 {
     let largest = contribution.max_element();
     if largest > limit { contribution * (limit / largest) } else { contribution }

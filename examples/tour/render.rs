@@ -11,8 +11,8 @@ use crate::integrator::{Faults, radiance};
 use crate::sampler::Sampler;
 use crate::scene::Scene;
 
-/// What the paths through one row of pixels give to the row above, to their own and to the row
-/// below: sums of weighted radiance, and of weights.
+/// The light that the paths through one row of pixels give to the row above, to their own and to
+/// the row below: sums of weighted radiance, and of weights.
 type Row = [Vec<Vec4>; 3];
 
 /// The picture, and what was wrong with its numbers. It does not depend on the number of threads.
@@ -31,8 +31,8 @@ pub(crate) fn render(
     (Image { width, height, pixels }, faults)
 }
 
-/// What `row` makes of each row of a picture, from the top, on all cores; and what was wrong with
-/// its numbers.
+/// The results of `row` for each row of a picture, from the top, on all cores; and what was wrong
+/// with its numbers.
 pub(crate) fn each_row<T: Send>(
     height: u32,
     progress: &ProgressBar,

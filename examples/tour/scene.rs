@@ -1,4 +1,4 @@
-//! What is rendered: shapes on a floor, in an environment.
+//! The scene that is rendered: shapes on a floor, in an environment.
 
 use microsurface::frame::Frame;
 use microsurface::glam::Vec3;

@@ -1,4 +1,4 @@
-//! What a batch reads and what it writes, a block at a time.
+//! Arrays that a batch reads and writes, a block at a time.
 //!
 //! A block is a local array, so that the compiler knows without asking at run time that nothing it
 //! writes is read again, however many slices take part. The last block is filled up and computed as

@@ -1,4 +1,4 @@
-//! What the elementary functions need of a scalar: operations on its bits, and the names of its
+//! Requirements of the elementary functions on a scalar: operations on its bits, and the names of its
 //! coefficient tables.
 //!
 //! The tables stand in `coefficients/`: minimax fits computed by

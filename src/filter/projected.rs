@@ -290,8 +290,8 @@ pub fn filtered_by_bounds<T: Real>(
 /// use microsurface::{Beckmann, filter::{Footprint, projected}, glam::Vec2};
 /// let surface = Beckmann::isotropic(0.1_f32)?;
 /// let footprint = Footprint::new(Vec2::new(0.2, 0.0), Vec2::ZERO);
-/// let [alpha_x, _, _] =
-///     projected::filtered_tokuyoshi2017(&surface, footprint, 0.25)?.roughness_matrix()?.principal();
+/// let filtered = projected::filtered_tokuyoshi2017(&surface, footprint, 0.25)?;
+/// let [alpha_x, _, _] = filtered.roughness_matrix()?.principal();
 /// assert!((alpha_x * alpha_x - 0.03).abs() < 1e-7);
 /// # Ok::<(), microsurface::Error>(())
 /// ```

@@ -1,4 +1,4 @@
-//! Which distribution, which map, which function.
+//! The choice of distribution, map and function.
 //!
 //! | you want | take |
 //! |---|---|

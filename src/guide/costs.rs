@@ -1,4 +1,4 @@
-//! What a scene pays: what it uses.
+//! The cost of a scene: it pays for what it uses.
 //!
 //! The map is a type, so an isotropic surface has no operation of an anisotropic one. A surface
 //! that was transformed or filtered by A + 2Σ costs what its map costs, to the instruction.

@@ -41,7 +41,7 @@
 //! | [`Ndf`](crate::Ndf) | evaluation; [`Transformed`](crate::transform::Transformed); batches by [`Custom`](crate::batch::Custom) |
 //! | [`SampleNdf`](crate::SampleNdf) | `sample` with [`AllNormals`](crate::bsdf::AllNormals) |
 //! | [`SampleVndf`](crate::SampleVndf) | `sample` with visible normals |
-//! | [`Profile`](crate::profile::Profile) instead, for an isotropic slope profile | all three maps, transforms, filters |
+//! | [`Profile`](crate::profile::Profile) instead, for an isotropic slope profile | all three maps and transforms; batches by [`Custom`](crate::batch::Custom) |
 //!
 //! Override [`lambda`](crate::Ndf::lambda) only for speed: its default does not cancel if σ below
 //! the horizon does not.

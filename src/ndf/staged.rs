@@ -42,7 +42,7 @@ impl Solver for () {
 /// A distribution whose visible normals are drawn in three stages: ask, solve, and the normal.
 ///
 /// Sealed: the crate's own distributions, and [`batch::Custom`](crate::batch::Custom) for others.
-pub trait StagedVndf: SampleVndf {
+pub trait StagedVndf: SampleVndf + Forms {
     /// Whether the stages are straight-line code; if not, they are compiled for the build's own
     /// vectors alone.
     #[doc(hidden)]

@@ -298,8 +298,8 @@ fn special_angles() {
     }
 }
 
-/// What must not jump where intervals or exponents meet: neighbours differ by the slope and a few
-/// ulp.
+/// Values that must not jump where intervals or exponents meet: neighbours differ by the slope and
+/// a few ulp.
 #[test]
 fn monotonic_where_the_slope_exceeds_the_error() {
     let decreasing: [fn(f32) -> f32; 3] = [e::erfc, e::erfcx, e::ierfcx];

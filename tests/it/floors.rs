@@ -24,7 +24,7 @@ const FLOORS: [&[&str]; 17] = [
     &["guide"],
 ];
 
-/// What `lib.rs` gives a shorter path.
+/// Names with a shorter path in `lib.rs`, and their modules.
 const SHORT: [(&str, &str); 13] = [
     ("AxisAligned", "map"),
     ("Beckmann", "beckmann"),
@@ -67,7 +67,7 @@ fn check(folder: &Path, top: Option<&str>, seen: &mut usize, faults: &mut Vec<St
             let own = floor(module).unwrap_or_else(|| panic!("{module} is on no floor"));
             for name in imported(&fs::read_to_string(&path).expect("a source")) {
                 *seen += 1;
-                // What is on no floor is a macro.
+                // A name on no floor is a macro.
                 if floor(&name).is_some_and(|floor| floor > own) {
                     faults.push(format!("{} imports {name}", path.display()));
                 }

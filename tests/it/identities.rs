@@ -319,8 +319,8 @@ fn deviations(density: &Surface<f64>, factor: f64, mask: &Surface<f64>, w: [f64;
     [deviation(normalised, 1.0), deviation(area, mask.sigma(direction)), deviation(furnace, w[2])]
 }
 
-/// What must be seen: a mask of α 3 % too large, a mask with its axes swapped, and a determinant
-/// left out.
+/// Mistakes that must be seen: a mask of α 3 % too large, a mask with its axes swapped, and a
+/// determinant left out.
 #[test]
 fn wrong_masks_and_determinants_are_seen() {
     let build = |spec: Spec| spec.build::<f64>().expect("within the domain");

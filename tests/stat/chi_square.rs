@@ -17,7 +17,7 @@ use crate::special::{chi_square_survival, count};
 /// The smallest expectation for which Poisson counts are close enough to normal (Cochran 1954).
 const SMALLEST_EXPECTATION: f64 = 5.0;
 
-/// What share of the Poisson noise √E of a cell the error of its expectation may be. A systematic
+/// The share of the Poisson noise √E of a cell the error of its expectation may be. A systematic
 /// error of that share in every cell raises χ² by 4e-4 of its degrees of freedom.
 const SHARE_OF_NOISE: f64 = 0.02;
 

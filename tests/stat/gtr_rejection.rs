@@ -1,5 +1,5 @@
-//! What stratified points do for visible normals of GTR, drawn by inversion and, for comparison, by
-//! rejection.
+//! The effect of stratified points on visible normals of GTR, drawn by inversion and, for
+//! comparison, by rejection.
 //!
 //! The rejection samplers are written here. They are exact as well, but use up an unpredictable
 //! part of the points: evenly spread points come out as a random part of themselves.

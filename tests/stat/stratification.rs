@@ -22,7 +22,7 @@ const EFFORT: Effort = Effort { samples: 1 << LOG2_SAMPLES, rows: 12, columns: 1
 /// χ² of even points for a degree of freedom, at most. The worst here is about a third of it.
 const LARGEST_RATIO: f64 = 0.25;
 
-/// The same of GTR, whose components and exponents are chosen by a coordinate too: every border
+/// The test for GTR, whose components and exponents are chosen by a coordinate too: every border
 /// between two is a rim that some cells have inside.
 const LARGEST_RATIO_OF_COMPONENTS: f64 = 0.5;
 

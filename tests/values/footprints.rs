@@ -1,5 +1,5 @@
-//! What a pixel covers: footprints, covariances, derivatives of half vectors, rays, quads, normal
-//! maps.
+//! The slopes that a pixel covers: footprints, covariances, derivatives of half vectors, rays,
+//! quads, normal maps.
 
 use microsurface::Real;
 use microsurface::filter::deferred::{quad_in_slopes, quad_projected};

@@ -90,8 +90,8 @@ struct Arguments<T> {
 }
 
 impl<T: Elementary + Spectrum<Scalar = T>> Arguments<T> {
-    /// What the textbook has, in the groups that [`ask`](Self::ask) goes on with. That of GGX is
-    /// the measure of all.
+    /// The forms of the textbook, in the groups that [`ask`](Self::ask) goes on with. That of GGX
+    /// is the measure of all.
     fn textbook(&self, criterion: &mut Criterion, alpha: T) {
         let n = self.wo.x.len();
         let (wi, wo) = (self.wi.slices(), self.wo.slices());
@@ -134,8 +134,8 @@ impl<T: Elementary + Spectrum<Scalar = T>> Arguments<T> {
         compare(criterion, "entry_sample_ggx", n, &mut [(scalar, sample)]);
     }
 
-    /// What no form of GGX's reflection can do without: its loads and its store, three roots, one
-    /// quotient.
+    /// The least that every form of GGX's reflection needs: its loads and its store, three roots,
+    /// one quotient.
     fn limits(&self, criterion: &mut Criterion) {
         let n = self.wo.x.len();
         let input = (self.wi.borrowed(), self.wo.borrowed());

@@ -58,7 +58,7 @@ pub(crate) fn visible_normal_jakob2014<T: Elementary>(
     visible_normal(width, w, u, erf_inv, |cos, sin, u| slope_jakob2014(cos, sin, u, erf, erf_inv))
 }
 
-/// The same as in Mitsuba: another start, without jumps in u, and three steps of Newton's without a
+/// The sampler of Mitsuba: another start, without jumps in u, and three steps of Newton's without a
 /// guard.
 #[inline(always)]
 pub(crate) fn visible_normal_mitsuba<T: Elementary>(width: Width<T>, w: [T; 3], u: [T; 2]) -> [T; 3] {

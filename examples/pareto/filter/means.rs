@@ -85,8 +85,6 @@ fn proxy(pixel: &Pixel, variance: f64) -> f32 {
     pixel.surface.filtered(kernel).map_or(f32::NAN, |surface| surface.p22(pixel.slope))
 }
 
-const BOX: f32 = 1.0 / 12.0;
-
 pub(super) fn run(effort: &Effort, out: &mut impl Write) -> io::Result<()> {
     let cases = cases(effort.pixels);
     let closed = |least| {
@@ -101,11 +99,11 @@ pub(super) fn run(effort: &Effort, out: &mut impl Write) -> io::Result<()> {
         Alternative::new("A + 2Σ, σ² = 1/12", &cases, |p| proxy(p, variance_of_box::<f64>())),
         Alternative::new("A + 2Σ, σ² = 1/4", &cases, |p| proxy(p, variance_kaplanyan2016::<f64>())),
         Alternative::new("gaussian::filtered_by_two, 1/12", &cases, |p| {
-            let filtered = gaussian::filtered_by_two(&p.surface, p.footprint.covariance(BOX));
+            let filtered = gaussian::filtered_by_two(&p.surface, p.footprint.covariance(variance_of_box()));
             filtered.map_or(f32::NAN, |surface| surface.p22(p.slope))
         }),
         Alternative::new("gaussian::filtered, 1/12", &cases, |p| {
-            let filtered = gaussian::filtered(&p.surface, p.footprint.covariance(BOX));
+            let filtered = gaussian::filtered(&p.surface, p.footprint.covariance(variance_of_box()));
             filtered.map_or(f32::NAN, |surface| surface.p22(p.slope))
         }),
         Alternative::new("Kaplanyan 2016, App. A", &cases, closed(1e-3)),

@@ -20,7 +20,7 @@ const fn bound(nodes: usize, alpha: f64, g1: f64) -> Bound {
     Bound { nodes, alpha, g1 }
 }
 
-/// What `gtr::nodes` states.
+/// The errors that `gtr::nodes` states.
 const BOUNDS: &[Bound] = &[
     bound(4, 1e-3, 1.1e-3),
     bound(4, 0.01, 3.2e-4),
