@@ -14,6 +14,9 @@ use rand::Rng;
 
 use budget::assert_within;
 
+use crate::rows::Row;
+use crate::surfaces::{Move, Spec, Surface, Widths};
+
 const NDF: &str = include_str!("../reference/ndf.tsv");
 const MASKING: &str = include_str!("../reference/masking.tsv");
 const MASKING_GTR: &str = include_str!("../reference/masking_gtr.tsv");
@@ -62,27 +65,20 @@ impl Worst {
     }
 }
 
-/// The surfaces of a table's first three columns, whatever their type.
-fn with_surface<T: Real, R>(columns: &[&str], f: impl FnOnce(&dyn Ndf<Scalar = T>) -> R) -> R {
-    let [alpha_x, alpha_y] = [1, 2].map(|i| T::lit(number(columns[i])));
-    let isotropic = alpha_x == alpha_y;
-    match (columns[0], isotropic) {
-        ("ggx", true) => f(&Ggx::isotropic(alpha_x).unwrap()),
-        ("ggx", false) => f(&Ggx::anisotropic(alpha_x, alpha_y).unwrap()),
-        ("beckmann", true) => f(&Beckmann::isotropic(alpha_x).unwrap()),
-        ("beckmann", false) => f(&Beckmann::anisotropic(alpha_x, alpha_y).unwrap()),
-        ("gtr", _) => match columns[3] {
-            "0" => f(&Gtr::closed::<0>(alpha_x).unwrap()),
-            "1" => f(&Gtr::closed::<1>(alpha_x).unwrap()),
-            "2" => f(&Gtr::closed::<2>(alpha_x).unwrap()),
-            "3" => f(&Gtr::closed::<3>(alpha_x).unwrap()),
-            "4" => f(&Gtr::closed::<4>(alpha_x).unwrap()),
-            "6" => f(&Gtr::closed::<6>(alpha_x).unwrap()),
-            "10" => f(&Gtr::closed::<10>(alpha_x).unwrap()),
-            gamma => panic!("no closed mask for {gamma}"),
-        },
-        _ => panic!("unknown distribution {}", columns[0]),
-    }
+/// The surface of a table's first columns.
+fn surface<T: Real>(columns: &[&str]) -> Surface<T> {
+    let [name, exponent] = [columns[0], columns[3]];
+    let of_exponent = format!("{name}-closed-{exponent}");
+    let named = |row: &&Row| [name, &of_exponent].contains(&row.columns().name);
+    let row = Row::ALL.iter().rev().find(named).unwrap_or_else(|| panic!("no row for {name} {exponent}"));
+    let [alpha_x, alpha_y] = [1, 2].map(|i| number(columns[i]));
+    let widths = if row.columns().own_width || alpha_x == alpha_y {
+        Widths::Isotropic(if row.columns().own_width { 1.0 } else { alpha_x })
+    } else {
+        Widths::AxisAligned(alpha_x, alpha_y)
+    };
+    let gamma = exponent.parse().unwrap_or(f64::INFINITY);
+    Spec::new(row.with(alpha_x, gamma), widths, Move::Stay).build().unwrap()
 }
 
 /// q/z² of a row of densities (`normal`) or z²/s² of a row of masks: the exponent of Beckmann.
@@ -109,14 +105,14 @@ fn densities<T: Real>() {
             for columns in rows(NDF).filter(|c| c[0] == ndf && c[7] == near && !steep(c)) {
                 let wm = vector::<T>(&columns[4..7]);
                 if CLOSED.contains(&columns[3]) {
-                    let closed = with_surface::<T, _>(&columns, |surface| surface.d(wm));
+                    let closed = surface::<T>(&columns).d(wm);
                     worst.add_relative(closed, number(columns[8]), &columns);
                 }
                 let d = if ndf == "gtr" {
                     let [alpha, gamma] = [1, 3].map(|i| T::lit(number(columns[i])));
                     Density::new(alpha, gamma).unwrap().d(wm)
                 } else {
-                    with_surface::<T, _>(&columns, |surface| surface.d(wm))
+                    surface::<T>(&columns).d(wm)
                 };
                 worst.add_relative(d, number(columns[8]), &columns);
             }
@@ -136,7 +132,7 @@ fn densities<T: Real>() {
     }
     let mut worst = Worst::default();
     for columns in rows(NDF).filter(|c| steep(c)) {
-        let d = with_surface::<T, _>(&columns, |surface| surface.d(vector::<T>(&columns[4..7])));
+        let d = surface::<T>(&columns).d(vector::<T>(&columns[4..7]));
         let exact = number(columns[8]);
         let unit = exact.max(T::MIN_POSITIVE.to_f64()) * exponent(&columns, true);
         worst.add(d, exact, unit, &columns);
@@ -160,8 +156,8 @@ fn masks<T: Real>() {
         for columns in rows(table).filter(closed) {
             let w = vector::<T>(&columns[4..7]);
             let [z, exact_sigma, exact_lambda] = [6, 7, 8].map(|i| number(columns[i]));
-            let [sigma, lambda_of_w, g1_of_w] =
-                with_surface::<T, _>(&columns, |s| [s.sigma(w), s.lambda(w), s.g1(w, w)]);
+            let surface = surface::<T>(&columns);
+            let [sigma, lambda_of_w, g1_of_w] = [surface.sigma(w), surface.lambda(w), surface.g1(w, w)];
             let steepness = exponent(&columns, false);
             let steep = ndf == "beckmann" && steepness > LARGE_EXPONENT;
             let representable = exact_lambda.abs() < T::MAX.to_f64();

@@ -15,6 +15,7 @@ use microsurface::roughness::alpha_range;
 use microsurface::{Ndf, SampleNdf, SampleVndf};
 
 use crate::properties::skewness;
+use crate::rows::Row;
 use crate::scalar::{Scalar, dot, wide};
 use crate::surfaces::{Move, Shape, Spec, Surface, Widths};
 
@@ -86,26 +87,19 @@ impl Random {
     }
 
     fn spec(&mut self) -> Spec {
-        let gtr_alpha = if self.below(4) == 0 { 1.0 } else { self.decades(-8.0, 0.0) };
-        let shape = match self.below(12) {
-            0..3 => Shape::Ggx,
-            3..5 => Shape::Beckmann,
-            5 => Shape::BeckmannTo1e6,
-            6 => Shape::Mixture { alpha: gtr_alpha, gamma: self.gamma() },
-            7 => Shape::Gtr { alpha: gtr_alpha, gamma: [0, 1, 2, 3, 4, 6, 10][self.below(7) as usize] },
-            8 => Shape::Heavy { alpha: gtr_alpha, gamma: self.gamma().min(2.0) },
-            9 => {
+        let shape = match self.below(6) {
+            0 if self.below(2) == 0 => {
                 let deviations = [self.alpha(), self.alpha()].map(|x| if x == 1e4 { 0.0 } else { x });
                 Shape::Filtered { deviations, by_two: self.below(2) == 0 }
             }
-            10 => Shape::Halves { alpha: self.alpha() },
-            _ => Shape::Spline { alpha: gtr_alpha, gamma: 4.0 * self.unit() },
+            0 => Shape::Halves { alpha: self.alpha() },
+            _ => {
+                let alpha = if self.below(4) == 0 { 1.0 } else { self.decades(-8.0, 0.0) };
+                Row::drawn(self.unit()).with(alpha, self.gamma()).into()
+            }
         };
-        let gtr = matches!(
-            shape,
-            Shape::Mixture { .. } | Shape::Gtr { .. } | Shape::Heavy { .. } | Shape::Spline { .. }
-        );
-        let alpha = if gtr && self.below(2) == 0 { 1.0 } else { self.alpha() };
+        let own_width = shape.distribution().is_some_and(|d| d.row.columns().own_width);
+        let alpha = if own_width && self.below(2) == 0 { 1.0 } else { self.alpha() };
         let other = (alpha * self.decades(-6.0, 6.0)).clamp(1e-8, 1e4);
         let widths = match self.below(3) {
             0 => Widths::Isotropic(alpha),
@@ -352,13 +346,7 @@ fn pdf_range<T: Scalar>(surface: &Surface<T>, h: [T; 3], bounded: bool) -> Range
 fn beyond_the_scalar<T: Scalar>(spec: &Spec) -> bool {
     let [[a, b], [c, d]] = spec.factor::<T>();
     let smallest = (a * d - b * c).abs() / (a * a + b * b + c * c + d * d).sqrt();
-    let own = match spec.shape {
-        Shape::Gtr { alpha, .. }
-        | Shape::Mixture { alpha, .. }
-        | Shape::Heavy { alpha, .. }
-        | Shape::Spline { alpha, .. } => alpha,
-        _ => 1.0,
-    };
+    let own = spec.shape.distribution().map_or(1.0, |distribution| distribution.alpha);
     skewness(spec) > 0.25 / T::EPSILON.to_f64() || own * smallest < alpha_range::<T>().0.to_f64()
 }
 

@@ -12,6 +12,7 @@ use microsurface::fresnel::Perfect;
 use microsurface::ndf::{Ndf, SampleNdf};
 
 use crate::quadrature::{Estimate, Plane, over_hemisphere, over_reflected_directions, reflection};
+use crate::rows::{Distribution, Mask, Row};
 use crate::scalar::{Scalar, dot, unit, vec3, wide};
 use crate::surfaces::{Move, Shape, Spec, Surface, Widths};
 
@@ -80,13 +81,15 @@ fn widths_and_moves() -> Vec<(Widths, Move)> {
     ]
 }
 
-/// Every shape-invariant profile under every map, and GTR of several α and γ under what moves the
-/// unit map.
+/// The profiles without a width of their own under every map, and the others of several α and γ
+/// under what moves the unit map.
 fn specs() -> Vec<Spec> {
+    let (own_widths, plain): (Vec<Row>, Vec<Row>) =
+        Row::with_own_density().partition(|row| row.columns().own_width);
     let mut specs = Vec::new();
     for (widths, moved) in widths_and_moves() {
-        specs.push(Spec::new(Shape::Ggx, widths, moved));
-        specs.push(Spec::new(Shape::Beckmann, widths, moved));
+        let distributions = plain.iter().flat_map(|row| row.of_width(1.0));
+        specs.extend(distributions.map(|distribution| Spec::new(distribution, widths, moved)));
     }
     let moves = [
         Move::Stay,
@@ -96,31 +99,16 @@ fn specs() -> Vec<Spec> {
     ];
     for (i, alpha) in [1e-4, 0.01, 0.2, 0.9, 1.0].into_iter().enumerate() {
         for moved in [moves[0], moves[1 + i % 3]] {
-            for gamma in 0..=4 {
-                specs.push(Spec::new(Shape::Gtr { alpha, gamma }, Widths::Isotropic(1.0), moved));
-            }
-            for gamma in [0.3, 1.5, 2.5, 3.9] {
-                specs.push(Spec::new(Shape::Spline { alpha, gamma }, Widths::Isotropic(1.0), moved));
-            }
-            for gamma in [0.3, 1.2, 1.5, 2.01, 2.5, 3.9, 7.3] {
-                specs.push(Spec::new(Shape::Mixture { alpha, gamma }, Widths::Isotropic(1.0), moved));
-            }
+            let distributions = own_widths.iter().flat_map(|row| row.of_width(alpha));
+            specs.extend(distributions.map(|d| Spec::new(d, Widths::Isotropic(1.0), moved)));
         }
     }
     specs
 }
 
 fn plane<T: Scalar>(spec: &Spec) -> Plane {
-    let factor = spec.factor::<T>();
-    match spec.shape {
-        Shape::Ggx => Plane::heavy(factor, 1.0),
-        Shape::Beckmann | Shape::BeckmannTo1e6 => Plane::gaussian(factor),
-        Shape::Filtered { .. } | Shape::Halves { .. } => unreachable!("no plane of mixtures"),
-        Shape::Gtr { alpha, .. }
-        | Shape::Mixture { alpha, .. }
-        | Shape::Heavy { alpha, .. }
-        | Shape::Spline { alpha, .. } => Plane::heavy(factor, alpha),
-    }
+    let (factor, Distribution { alpha, gamma, .. }) = (spec.factor::<T>(), spec.distribution());
+    if gamma == f64::INFINITY { Plane::gaussian(factor) } else { Plane::heavy(factor, alpha) }
 }
 
 /// Directions from the pole to far below the horizon, as the scalar holds them.
@@ -153,13 +141,14 @@ fn over_normals<T: Scalar>(limits: &[Limit; 6]) {
         for w in directions::<T>() {
             let at = || format!("{surface:?} {w:?}");
             let direction = vec3::<T>(w);
-            let nodes = matches!(spec.shape, Shape::Mixture { .. });
-            if !spec.exact_mask() && !nodes && w[2] < 1.0 {
+            let Distribution { alpha, gamma, .. } = spec.distribution();
+            if spec.mask() == Mask::Spline && w[2] < 1.0 {
                 // Only D is exact: its normalisation is all there is.
                 continue;
             }
             let sigma = surface.sigma(direction).to_f64();
-            if spec.shape == Shape::Beckmann && sigma < 1e-6 * plane.factor[0][0].abs() {
+            let light = if gamma == f64::INFINITY { 1e-6 } else { 0.1 };
+            if gamma > 4.0 && sigma < light * alpha * plane.factor[0][0].abs() {
                 // The tail that is seen from far below has a scale of its own.
                 continue;
             }
@@ -173,14 +162,14 @@ fn over_normals<T: Scalar>(limits: &[Limit; 6]) {
             if w[0] == 0.0 && w[1] == 0.0 {
                 worst[0].see(area, 1.0, &at);
             }
-            if spec.exact_mask() {
+            if spec.mask() == Mask::Exact {
                 worst[1].see(area, sigma, &at);
                 worst[2].see(vndf, 1.0, &at);
                 if w[2] > 0.0 {
                     worst[3].see(masked, w[2], &at);
                 }
-            } else if nodes && w[2] >= 0.0 {
-                let narrow = matches!(spec.shape, Shape::Mixture { alpha, .. } if alpha < 1e-3);
+            } else if spec.mask() == Mask::Nodes && w[2] >= 0.0 {
+                let narrow = alpha < 1e-3;
                 worst[if narrow { 4 } else { 5 }].see(area, sigma, &at);
             }
         }
@@ -220,7 +209,7 @@ fn integrals_over_normals_f32() {
 #[test]
 fn furnace_over_reflected_directions() {
     let mut worst = Worst::default();
-    for spec in specs().into_iter().filter(Spec::exact_mask).step_by(2) {
+    for spec in specs().into_iter().filter(|spec| spec.mask() == Mask::Exact).step_by(2) {
         let surface: Surface<f64> = spec.build().expect("within the domain");
         for w in directions::<f64>().into_iter().filter(|w| w[2] > 0.01) {
             let direction = vec3::<f64>(w);
@@ -246,12 +235,12 @@ fn rough() -> Vec<Spec> {
         Widths::AxisAligned(0.3, 0.8),
         Widths::Matrix { x: 0.5, y: 0.6, correlation: 0.6 },
     ] {
-        specs.push(Spec::new(Shape::Ggx, widths, Move::Stay));
-        specs.push(Spec::new(Shape::Beckmann, widths, Move::Stay));
+        specs.push(Spec::new(Shape::GGX, widths, Move::Stay));
+        specs.push(Spec::new(Shape::BECKMANN, widths, Move::Stay));
     }
-    for gamma in 0..=4 {
-        let shape = Shape::Gtr { alpha: 0.5, gamma };
-        specs.push(Spec::new(shape, Widths::Isotropic(1.0), Move::Transform([[1.2, 0.3], [-0.1, 0.9]])));
+    let moved = Move::Transform([[1.2, 0.3], [-0.1, 0.9]]);
+    for row in Row::ALL.iter().filter(|row| row.columns().own_width && row.columns().mask == Mask::Exact) {
+        specs.extend(row.of_width(0.5).map(|d| Spec::new(d, Widths::Isotropic(1.0), moved)));
     }
     specs
 }
@@ -326,13 +315,13 @@ fn wrong_masks_and_determinants_are_seen() {
     let build = |spec: Spec| spec.build::<f64>().expect("within the domain");
     let w = wide(<[f64; 3]>::from(vec3::<f64>(unit([0.8, 0.3, 0.25]))));
     for alpha in [1e-4, 0.01, 0.2, 1.0] {
-        for shape in [Shape::Ggx, Shape::Beckmann] {
+        for shape in [Shape::GGX, Shape::BECKMANN] {
             let surface = |x: f64, y: f64| build(Spec::new(shape, Widths::AxisAligned(x, y), Move::Stay));
             let right = surface(alpha, 2.0 * alpha);
             let none = deviations(&right, 1.0, &right, w);
             assert!(none.iter().all(|&d| d < 1e-9), "{right:?} {none:?}");
             // Below these widths the masks themselves differ by less than 1e-9 at this angle.
-            let visible_mask = shape == Shape::Ggx || alpha >= 0.2;
+            let visible_mask = shape == Shape::GGX || alpha >= 0.2;
             if visible_mask {
                 let wider = deviations(&right, 1.0, &surface(1.03 * alpha, 2.06 * alpha), w);
                 let swapped = deviations(&right, 1.0, &surface(2.0 * alpha, alpha), w);
@@ -344,12 +333,13 @@ fn wrong_masks_and_determinants_are_seen() {
     }
     let matrix = Move::Transform([[0.3, -1.2], [0.8, 0.5]]);
     let determinant: f64 = 0.3 * 0.5 + 1.2 * 0.8;
-    for gamma in 0..=4 {
-        let right = build(Spec::new(Shape::Gtr { alpha: 0.2, gamma }, Widths::Isotropic(1.0), matrix));
+    for row in [Row::Gtr0, Row::Gtr1, Row::Gtr2, Row::Gtr3, Row::Gtr4] {
+        let of_width = |alpha| row.with(alpha, 0.0);
+        let right = build(Spec::new(of_width(0.2), Widths::Isotropic(1.0), matrix));
         let missing = deviations(&right, 1.0 / determinant, &right, w);
         assert!(missing.iter().all(|&d| d > 0.05), "{right:?} {missing:?}");
-        let wider = build(Spec::new(Shape::Gtr { alpha: 0.206, gamma }, Widths::Isotropic(1.0), matrix));
+        let wider = build(Spec::new(of_width(0.206), Widths::Isotropic(1.0), matrix));
         let wider = deviations(&right, 1.0, &wider, w);
-        assert!(gamma == 0 || (wider[1] > 1e-4 && wider[2] > 1e-4), "{right:?} {wider:?}");
+        assert!(row == Row::Gtr0 || (wider[1] > 1e-4 && wider[2] > 1e-4), "{right:?} {wider:?}");
     }
 }

@@ -23,6 +23,9 @@ mod quadrature;
 mod readme;
 mod reflection;
 mod roughness;
+#[path = "../surfaces/mod.rs"]
+#[expect(dead_code, reason = "not every crate reads every column")]
+mod rows;
 mod scalar;
 mod stored;
 mod strategies;

@@ -7,6 +7,7 @@
 use proptest::prelude::*;
 use proptest::test_runner::{FileFailurePersistence, RngSeed, TestCaseError, TestRunner};
 
+use crate::rows::{Distribution, Mask};
 use crate::scalar::Scalar;
 use crate::surfaces::{Shape, Spec};
 
@@ -76,28 +77,19 @@ fn roundings_of_d(spec: &Spec, m: [f64; 3], absolute: f64) -> f64 {
     let z = 1.0 + absolute / m[2];
     let dq =
         2.0 * (p[0].abs() * moved[0] + p[1].abs() * moved[1] + q * z) + absolute * moved[0].hypot(moved[1]);
-    match spec.shape {
-        Shape::Ggx => 5.0 * z + 2.0 * dq / (1.0 + q),
-        Shape::Beckmann | Shape::BeckmannTo1e6 => 4.0 * z + dq,
-        // A power has roundings of its own.
-        Shape::Gtr { alpha, .. } => 6.0 * z + 4.0 * dq / (alpha * alpha + q) + 2.0 * dq / (1.0 + q),
-        Shape::Mixture { alpha, gamma } | Shape::Heavy { alpha, gamma } => {
-            (8.0 + 0.8 * gamma) * z + gamma * dq / (alpha * alpha + q) + (gamma - 2.0).abs() * dq / (1.0 + q)
-        }
-        Shape::Filtered { .. } | Shape::Halves { .. } => {
-            unreachable!("mixtures have no conditioning of their own")
-        }
-        Shape::Spline { alpha, gamma } => 6.0 * z + gamma * dq / (alpha * alpha + q) + 2.0 * dq / (1.0 + q),
+    let Distribution { row, alpha, gamma } = spec.distribution();
+    let [fixed, by_gamma] = row.columns().roundings;
+    if gamma == f64::INFINITY {
+        return fixed * z + dq;
     }
+    (fixed + by_gamma * gamma) * z + gamma * dq / (alpha * alpha + q) + (gamma - 2.0).abs() * dq / (1.0 + q)
 }
 
 /// How many roundings σ by one route is from σ by another: the sum over the nodes of a mixture has
 /// more.
 fn roundings_of_sigma(spec: &Spec) -> f64 {
-    match spec.shape {
-        Shape::Mixture { .. } | Shape::Heavy { .. } | Shape::Filtered { .. } => 8.0,
-        _ => 3.0,
-    }
+    let sum = spec.mask() == Mask::Nodes || matches!(spec.shape, Shape::Filtered { .. });
+    if sum { 8.0 } else { 3.0 }
 }
 
 /// How far rounding turns the stored map, in roundings of q: about half the ratio of its principal

@@ -4,7 +4,9 @@
 use core::f64::consts::TAU;
 
 use proptest::prelude::*;
+use proptest::strategy::{Union, ValueTree};
 
+use crate::rows::{Mask, Row};
 use crate::scalar::Scalar;
 use crate::surfaces::{Move, Shape, Spec, Widths};
 
@@ -143,34 +145,34 @@ fn moves() -> impl Strategy<Value = Move> {
     ]
 }
 
-fn gtr_alpha() -> impl Strategy<Value = f64> {
+fn own_width() -> impl Strategy<Value = f64> {
     prop_oneof![3 => log_uniform(-19.9, 0.0), 1 => Just(1.0), 1 => Just(1.0 - 1e-7), 1 => Just(1e-6)]
 }
 
-fn gtr_gamma() -> impl Strategy<Value = f64> {
+/// An exponent of the tail of `row`: anything, next to the ends, and next to an integer.
+fn gamma(row: Row) -> impl Strategy<Value = f64> {
+    let [low, high] = row.columns().range;
+    // Of a row of one γ, finite or not, that one.
+    let within = move |gamma: f64| gamma.clamp(low, high);
     prop_oneof![4 => 0.0..=4.0, 1 => 4.0..=10.0, 1 => (0..=10_u8).prop_map(f64::from), 1 => Just(2.0 + 1e-9), 1 => Just(1e-9)]
+        .prop_map(within)
 }
 
-fn mixture() -> impl Strategy<Value = Spec> {
-    let widths_of_gtr = prop_oneof![2 => Just(Widths::Isotropic(1.0)), 1 => widths()];
-    (gtr_alpha(), gtr_gamma(), widths_of_gtr, moves())
-        .prop_map(|(alpha, gamma, widths, moved)| Spec::new(Shape::Mixture { alpha, gamma }, widths, moved))
+/// A distribution of `row` under every kind of map.
+fn surface_of(row: Row) -> impl Strategy<Value = Spec> {
+    let widths = if row.columns().own_width {
+        prop_oneof![2 => Just(Widths::Isotropic(1.0)), 1 => widths()].boxed()
+    } else {
+        widths().boxed()
+    };
+    (own_width(), gamma(row), widths, moves())
+        .prop_map(move |(alpha, gamma, widths, moved)| Spec::new(row.with(alpha, gamma), widths, moved))
 }
 
 /// Every profile under every kind of map.
 pub(crate) fn surface() -> impl Strategy<Value = Spec> {
-    let widths_of_gtr = prop_oneof![2 => Just(Widths::Isotropic(1.0)), 1 => widths()];
-    let invariant = (any::<bool>(), widths(), moves()).prop_map(|(ggx, widths, moved)| {
-        Spec::new(if ggx { Shape::Ggx } else { Shape::Beckmann }, widths, moved)
-    });
-    let closed = prop_oneof![5 => 0..=4_u8, 1 => Just(6), 1 => Just(10)];
-    let gtr = (gtr_alpha(), closed, widths_of_gtr.clone(), moves())
-        .prop_map(|(alpha, gamma, widths, moved)| Spec::new(Shape::Gtr { alpha, gamma }, widths, moved));
-    let heavy = (gtr_alpha(), 0.0..=2.0, widths_of_gtr.clone(), moves())
-        .prop_map(|(alpha, gamma, widths, moved)| Spec::new(Shape::Heavy { alpha, gamma }, widths, moved));
-    let spline = (gtr_alpha(), prop_oneof![3 => 0.0..=4.0, 1 => Just(1.0 + 1e-9)], widths_of_gtr, moves())
-        .prop_map(|(alpha, gamma, widths, moved)| Spec::new(Shape::Spline { alpha, gamma }, widths, moved));
-    prop_oneof![6 => invariant, 2 => gtr, 2 => mixture(), 1 => heavy, 2 => spline]
+    let rows = Row::ALL.iter().map(|&row| (row.columns().share.into(), surface_of(row).boxed()));
+    Union::new_weighted(rows.collect())
 }
 
 /// Mixtures of distributions, which are no profile under a map: filtered ones, and a caller's own.
@@ -210,8 +212,6 @@ fn share<S: Strategy>(strategy: &S, property: impl Fn(S::Value) -> bool) -> f64 
         .count();
     f64::from(u16::try_from(hits).expect("4000")) / 4000.0
 }
-
-use proptest::strategy::ValueTree;
 
 fn reaches_the_hard_cases<T: Scalar>() {
     let unit = |w: [T; 3]| {
@@ -253,14 +253,16 @@ fn surfaces_of_every_kind_build() {
     let builds = share(&spec, |spec| spec.build::<f32>().is_ok() && spec.build::<f64>().is_ok());
     assert!(builds > 0.97, "{builds}");
     for (name, share) in [
-        ("GGX", share(&spec, |s| s.shape == Shape::Ggx)),
-        ("Beckmann", share(&spec, |s| s.shape == Shape::Beckmann)),
-        ("exact GTR", share(&spec, |s| matches!(s.shape, Shape::Gtr { .. }))),
-        ("GTR of nodes", share(&spec, |s| matches!(s.shape, Shape::Mixture { .. }))),
-        ("spline", share(&spec, |s| matches!(s.shape, Shape::Spline { .. }))),
+        ("GGX", share(&spec, |s| s.shape == Shape::GGX)),
+        ("Beckmann", share(&spec, |s| s.shape == Shape::BECKMANN)),
+        (
+            "exact masks of γ",
+            share(&spec, |s| s.mask() == Mask::Exact && s.distribution().row.columns().own_width),
+        ),
+        ("masks of nodes", share(&spec, |s| s.mask() == Mask::Nodes)),
+        ("splines", share(&spec, |s| s.mask() == Mask::Spline)),
         ("transformed", share(&spec, |s| matches!(s.moved, Move::Transform(_)))),
         ("wrapped", share(&spec, |s| matches!(s.moved, Move::Wrap(_)))),
-        ("heavy tails", share(&spec, |s| matches!(s.shape, Shape::Heavy { .. }))),
         ("filtered", share(&compound(), |s| matches!(s.shape, Shape::Filtered { .. }))),
         ("stretched", share(&spec, |s| matches!(s.moved, Move::Stretch(_)))),
         ("smooth", share(&alpha().boxed(), |alpha| alpha < 1e-4)),

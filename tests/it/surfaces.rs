@@ -5,51 +5,42 @@
 use core::fmt;
 use std::rc::Rc;
 
-use microsurface::beckmann::BeckmannTo1e6;
 use microsurface::filter::{Covariance, gaussian};
 use microsurface::map::{AxisAligned, Isotropic, Linear, Map};
 use microsurface::ndf::{Ndf, SampleNdf, SampleVndf, Vec2, Vec3};
 use microsurface::profile::{SampleProfile, SampleVisibleProfile};
 use microsurface::transform::Transformed;
-use microsurface::{Beckmann, Error, Ggx, Gtr, Microsurface, Real, RoughnessMatrix};
+use microsurface::{Error, Ggx, Microsurface, Real, RoughnessMatrix};
 
-/// A profile and its own parameters.
+use crate::rows::{Distribution, Mask, Visitor};
+
+/// A distribution before its map.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Shape {
-    Ggx,
-    Beckmann,
-    /// Beckmann with the quicker sampling of visible normals.
-    BeckmannTo1e6,
-    /// With the closed mask of an integer γ.
-    Gtr {
-        alpha: f64,
-        gamma: u8,
-    },
-    /// With the mask of eight nodes.
-    Mixture {
-        alpha: f64,
-        gamma: f64,
-    },
-    /// GTR of γ ≤ 2 with the mask of eight nodes and no components.
-    Heavy {
-        alpha: f64,
-        gamma: f64,
-    },
-    Spline {
-        alpha: f64,
-        gamma: f64,
-    },
+    /// One of the rows.
+    Of(Distribution),
     /// GGX convolved with a Gaussian of these standard deviations along the axes, as six surfaces
     /// more or as one.
-    Filtered {
-        deviations: [f64; 2],
-        by_two: bool,
-    },
+    Filtered { deviations: [f64; 2], by_two: bool },
     /// GGX of `widths` and a Beckmann surface of α, half of each, as a caller's own [`Ndf`] of two
     /// functions.
-    Halves {
-        alpha: f64,
-    },
+    Halves { alpha: f64 },
+}
+
+impl Shape {
+    pub(crate) const GGX: Self = Self::Of(Distribution::GGX);
+    pub(crate) const BECKMANN: Self = Self::Of(Distribution::BECKMANN);
+
+    /// The distribution of the profile under its map; none of a mixture.
+    pub(crate) fn distribution(&self) -> Option<Distribution> {
+        if let Self::Of(distribution) = self { Some(*distribution) } else { None }
+    }
+}
+
+impl From<Distribution> for Shape {
+    fn from(distribution: Distribution) -> Self {
+        Self::Of(distribution)
+    }
 }
 
 /// The slope widths given when a surface is built; for GTR a map on top of the profile's own α.
@@ -80,18 +71,30 @@ pub(crate) struct Spec {
 }
 
 impl Spec {
-    pub(crate) const fn new(shape: Shape, widths: Widths, moved: Move) -> Self {
-        Self { shape, widths, moved }
+    pub(crate) fn new(shape: impl Into<Shape>, widths: Widths, moved: Move) -> Self {
+        Self { shape: shape.into(), widths, moved }
     }
 
-    /// Whether σ is that of D to rounding.
-    pub(crate) fn exact_mask(&self) -> bool {
-        !matches!(self.shape, Shape::Spline { .. } | Shape::Mixture { .. } | Shape::Heavy { .. })
+    /// The distribution of the profile under the map.
+    ///
+    /// # Panics
+    /// If it is a mixture.
+    pub(crate) fn distribution(&self) -> Distribution {
+        self.shape.distribution().expect("a profile under a map")
+    }
+
+    /// How near σ is to that of D.
+    pub(crate) fn mask(&self) -> Mask {
+        self.shape.distribution().map_or(Mask::Exact, |distribution| distribution.row.columns().mask)
     }
 
     /// Whether visible normals can be drawn.
     pub(crate) fn samples_visible(&self) -> bool {
-        !matches!(self.shape, Shape::Spline { .. } | Shape::Halves { .. })
+        match self.shape {
+            Shape::Of(distribution) => distribution.row.samples_visible(),
+            Shape::Filtered { .. } => true,
+            Shape::Halves { .. } => false,
+        }
     }
 
     /// With every parameter rounded to f32, so that both scalars hold the same; widths of matrices
@@ -99,10 +102,7 @@ impl Spec {
     pub(crate) fn rounded(&self) -> Self {
         let held = |x: f64| f64::from(x as f32);
         let shape = match self.shape {
-            Shape::Gtr { alpha, gamma } => Shape::Gtr { alpha: held(alpha), gamma },
-            Shape::Mixture { alpha, gamma } => Shape::Mixture { alpha: held(alpha), gamma: held(gamma) },
-            Shape::Heavy { alpha, gamma } => Shape::Heavy { alpha: held(alpha), gamma: held(gamma) },
-            Shape::Spline { alpha, gamma } => Shape::Spline { alpha: held(alpha), gamma: held(gamma) },
+            Shape::Of(Distribution { row, alpha, gamma }) => row.with(held(alpha), held(gamma)).into(),
             shape => shape,
         };
         let widths = match self.widths {
@@ -120,31 +120,7 @@ impl Spec {
 
     pub(crate) fn build<T: Real>(&self) -> Result<Surface<T>, Error> {
         match self.shape {
-            Shape::Ggx => self.visible(Ggx),
-            Shape::Beckmann => self.visible(Beckmann),
-            Shape::BeckmannTo1e6 => self.visible(BeckmannTo1e6),
-            Shape::Gtr { alpha, gamma } => {
-                let alpha = T::lit(alpha);
-                match gamma {
-                    0 => self.visible(*Gtr::closed::<0>(alpha)?.profile()),
-                    1 => self.visible(*Gtr::closed::<1>(alpha)?.profile()),
-                    2 => self.visible(*Gtr::closed::<2>(alpha)?.profile()),
-                    3 => self.visible(*Gtr::closed::<3>(alpha)?.profile()),
-                    4 => self.visible(*Gtr::closed::<4>(alpha)?.profile()),
-                    6 => self.visible(*Gtr::closed::<6>(alpha)?.profile()),
-                    10 => self.visible(*Gtr::closed::<10>(alpha)?.profile()),
-                    _ => panic!("no closed mask of γ = {gamma} is tested"),
-                }
-            }
-            Shape::Mixture { alpha, gamma } => {
-                self.visible(*Gtr::isotropic(T::lit(alpha), T::lit(gamma))?.profile())
-            }
-            Shape::Heavy { alpha, gamma } => {
-                self.visible(*Gtr::heavy_tailed::<8>(T::lit(alpha), T::lit(gamma))?.profile())
-            }
-            Shape::Spline { alpha, gamma } => {
-                self.hidden(*Gtr::spline(T::lit(alpha), T::lit(gamma))?.profile())
-            }
+            Shape::Of(distribution) => distribution.visit(Build(self))?,
             Shape::Filtered { deviations, by_two } => {
                 let [x, y] = deviations.map(|deviation| T::lit(deviation));
                 let kernel = Covariance::axis_aligned(x * x, y * y);
@@ -155,8 +131,8 @@ impl Spec {
                 }
             }
             Shape::Halves { alpha } => {
-                let ggx = Spec { shape: Shape::Ggx, moved: Move::Stay, ..*self }.build()?;
-                let beckmann = Spec::new(Shape::Beckmann, Widths::Isotropic(alpha), Move::Stay).build()?;
+                let ggx = Spec { shape: Shape::GGX, moved: Move::Stay, ..*self }.build()?;
+                let beckmann = Spec::new(Shape::BECKMANN, Widths::Isotropic(alpha), Move::Stay).build()?;
                 self.all_normals(Halves(ggx, beckmann))
             }
         }
@@ -214,25 +190,6 @@ impl Spec {
             Widths::Isotropic(a) => [a * a, 0.0, a * a],
             Widths::AxisAligned(x, y) => [x * x, 0.0, y * y],
             Widths::Matrix { x, y, correlation } => [x * x, correlation * (x * y), y * y],
-        }
-    }
-
-    fn visible<T: Real, P: SampleVisibleProfile<T> + SampleProfile<T> + 'static>(
-        &self,
-        profile: P,
-    ) -> Result<Surface<T>, Error> {
-        match self.map(profile)? {
-            AnyMap::Isotropic(m) => self.all_and_visible_normals(Microsurface::new(profile, m)),
-            AnyMap::AxisAligned(m) => self.all_and_visible_normals(Microsurface::new(profile, m)),
-            AnyMap::Linear(m) => self.all_and_visible_normals(Microsurface::new(profile, m)),
-        }
-    }
-
-    fn hidden<T: Real, P: SampleProfile<T> + 'static>(&self, profile: P) -> Result<Surface<T>, Error> {
-        match self.map(profile)? {
-            AnyMap::Isotropic(m) => self.all_normals(Microsurface::new(profile, m)),
-            AnyMap::AxisAligned(m) => self.all_normals(Microsurface::new(profile, m)),
-            AnyMap::Linear(m) => self.all_normals(Microsurface::new(profile, m)),
         }
     }
 
@@ -294,6 +251,29 @@ impl Spec {
                 AnyMap::Linear(*Microsurface::new(profile, b).stretched(T::lit(s))?.map())
             }
         })
+    }
+}
+
+/// Builds the surface of a profile.
+struct Build<'a>(&'a Spec);
+
+impl<T: Real> Visitor<T> for Build<'_> {
+    type Output = Result<Surface<T>, Error>;
+
+    fn visible<P: SampleVisibleProfile<T> + SampleProfile<T> + 'static>(self, profile: P) -> Self::Output {
+        match self.0.map(profile)? {
+            AnyMap::Isotropic(m) => self.0.all_and_visible_normals(Microsurface::new(profile, m)),
+            AnyMap::AxisAligned(m) => self.0.all_and_visible_normals(Microsurface::new(profile, m)),
+            AnyMap::Linear(m) => self.0.all_and_visible_normals(Microsurface::new(profile, m)),
+        }
+    }
+
+    fn all_normals<P: SampleProfile<T> + 'static>(self, profile: P) -> Self::Output {
+        match self.0.map(profile)? {
+            AnyMap::Isotropic(m) => self.0.all_normals(Microsurface::new(profile, m)),
+            AnyMap::AxisAligned(m) => self.0.all_normals(Microsurface::new(profile, m)),
+            AnyMap::Linear(m) => self.0.all_normals(Microsurface::new(profile, m)),
+        }
     }
 }
 

@@ -5,29 +5,20 @@ use microsurface::fresnel::{Conductor, Dielectric, Fresnel, Perfect, Schlick};
 use microsurface::glam::{DVec2, DVec3};
 use microsurface::{Ndf, SampleNdf, SampleVndf};
 
+use crate::rows::Row;
 use crate::scalar::Scalar;
-use crate::surfaces::{Move, Shape, Spec, Surface, Widths};
+use crate::surfaces::{Move, Spec, Surface, Widths};
 
 /// A surface of each profile under each type of map.
 fn surfaces<T: Scalar>() -> Vec<Surface<T>> {
     let mut surfaces = Vec::new();
-    for shape in [
-        Shape::Ggx,
-        Shape::Beckmann,
-        Shape::BeckmannTo1e6,
-        Shape::Gtr { alpha: 0.3, gamma: 0 },
-        Shape::Gtr { alpha: 0.3, gamma: 1 },
-        Shape::Gtr { alpha: 0.3, gamma: 4 },
-        Shape::Mixture { alpha: 0.3, gamma: 1.5 },
-        Shape::Mixture { alpha: 0.3, gamma: 3.5 },
-        Shape::Spline { alpha: 0.3, gamma: 1.5 },
-    ] {
+    for distribution in Row::ALL.iter().flat_map(|row| row.of_width(0.3)) {
         for widths in [
             Widths::Isotropic(0.7),
             Widths::AxisAligned(0.2, 0.9),
             Widths::Matrix { x: 0.3, y: 0.5, correlation: 0.4 },
         ] {
-            surfaces.push(Spec::new(shape, widths, Move::Stay).build().unwrap());
+            surfaces.push(Spec::new(distribution, widths, Move::Stay).build().unwrap());
         }
     }
     surfaces

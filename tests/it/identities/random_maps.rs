@@ -8,8 +8,9 @@ use rand::Rng;
 use rand_pcg::Pcg64Mcg;
 
 use super::{Worst, limit, plane};
+use crate::rows::{Distribution, Mask, Row};
 use crate::scalar::{dot, unit, vec3};
-use crate::surfaces::{Move, Shape, Spec, Surface, Widths};
+use crate::surfaces::{Move, Spec, Surface, Widths};
 
 /// Uniform in [low, high).
 fn uniform(random: &mut Pcg64Mcg, low: f64, high: f64) -> f64 {
@@ -26,16 +27,11 @@ fn matrix(random: &mut Pcg64Mcg) -> [[f64; 2]; 2] {
     [[c * x * d - s * y * t, s * x * d + c * y * t], [-c * x * t - s * y * d, -s * x * t + c * y * d]]
 }
 
-fn shape(random: &mut Pcg64Mcg, index: usize) -> Shape {
-    let alpha = 10_f64.powf(uniform(random, -3.0, 0.0));
-    match index % 6 {
-        0 => Shape::Ggx,
-        1 => Shape::Beckmann,
-        2 => Shape::Gtr { alpha, gamma: 1 },
-        3 => Shape::Gtr { alpha, gamma: 3 },
-        4 => Shape::Mixture { alpha, gamma: uniform(random, 0.0, 2.0) },
-        _ => Shape::Mixture { alpha, gamma: uniform(random, 2.0, 6.0) },
-    }
+/// A distribution of the rows by turns.
+fn distribution(random: &mut Pcg64Mcg, index: usize) -> Distribution {
+    let rows: Vec<Row> = Row::with_own_density().filter(|row| row.columns().mask != Mask::Spline).collect();
+    let row = rows[index % rows.len()];
+    row.with(10_f64.powf(uniform(random, -3.0, 0.0)), uniform(random, 0.0, 6.0))
 }
 
 /// One map: ∫D cos = 1, ∫D max(0, w·m) = σ, ∫D_w = 1 and the furnace ∫G1 D max(0, w·m) = w.z.
@@ -64,29 +60,28 @@ fn check(maps: usize) {
     let mut random = Pcg64Mcg::new(11);
     let [mut exact, mut nodes, mut boxed]: [[Worst; 4]; 3] = Default::default();
     for index in 0..maps {
-        let shape = shape(&mut random, index);
-        let widths = match shape {
-            Shape::Ggx | Shape::Beckmann | Shape::BeckmannTo1e6 => {
-                Widths::Isotropic(10_f64.powf(uniform(&mut random, -3.0, 0.0)))
-            }
-            _ => Widths::Isotropic(1.0),
+        let distribution = distribution(&mut random, index);
+        let widths = if distribution.row.columns().own_width {
+            Widths::Isotropic(1.0)
+        } else {
+            Widths::Isotropic(10_f64.powf(uniform(&mut random, -3.0, 0.0)))
         };
         let columns = matrix(&mut random);
-        let spec = Spec::new(shape, widths, Move::Transform(columns));
+        let spec = Spec::new(distribution, widths, Move::Transform(columns));
         let z = uniform(&mut random, 0.02, 1.0);
         let phi = uniform(&mut random, 0.0, 6.3);
         let s = (1.0 - z * z).sqrt();
         let w = unit([s * phi.cos(), s * phi.sin(), z]);
         let surface: Surface<f64> = spec.build().expect("within the domain");
         let at = || format!("{surface:?} {w:?}");
-        let worst = if spec.exact_mask() { &mut exact } else { &mut nodes };
+        let worst = if spec.mask() == Mask::Exact { &mut exact } else { &mut nodes };
         see(worst, &surface, &spec, w, &at);
         if index % 4 == 0 {
             let at_rest: Surface<f64> =
                 Spec { moved: Move::Stay, ..spec }.build().expect("within the domain");
             let moved = Transformed::new(at_rest, DMat2::from_cols_array_2d(&columns)).expect("invertible");
             // Only what rounding costs more than for the surface under its own map is of interest.
-            if spec.exact_mask() {
+            if spec.mask() == Mask::Exact {
                 see(&mut boxed, &moved, &spec, w, &|| format!("black box, {surface:?} {w:?}"));
             }
         }

@@ -6,6 +6,7 @@ use microsurface::fresnel::{Conductor, Perfect};
 use proptest::prelude::*;
 
 use super::{Outcome, check, for_both_scalars, near, roundings_of_d, roundings_of_sigma, skewness};
+use crate::rows::{Mask, Row};
 use crate::scalar::{Scalar, dot, unit, vec3, wide};
 use crate::strategies::{above, anywhere, distribution, pairs, strictly_above, surface};
 use crate::surfaces::{Move, Shape, Spec, Surface, Widths};
@@ -110,9 +111,9 @@ fn masking_is_ordered<T: Scalar>() {
 
 /// G2 is 1/(1 + Λ(wi) + Λ(wo)) also where the product of the cosines is no number.
 fn masking_does_not_multiply_cosines<T: Scalar>() {
-    let gtr = [Shape::Gtr { alpha: 0.5, gamma: 3 }, Shape::Mixture { alpha: 0.5, gamma: 1.5 }];
-    for shape in [Shape::Ggx, Shape::Beckmann].into_iter().chain(gtr) {
-        let surface = built::<T>(&Spec::new(shape, Widths::Isotropic(0.7), Move::Stay)).expect("in range");
+    for distribution in Row::ALL.iter().flat_map(|row| row.of_width(0.5)) {
+        let spec = Spec::new(distribution, Widths::Isotropic(0.7), Move::Stay);
+        let surface = built::<T>(&spec).expect("in range");
         for ratio in [1.0, 1.5, 1e3, 1e6, 1e9] {
             let z = T::lit(4096.0) * T::MIN_POSITIVE;
             let wi: T::Vec3 = [T::ONE, T::ZERO, z].into();
@@ -198,7 +199,7 @@ fn visible_normals_are_those_of_the_definition<T: Scalar>() {
         {
             // D_w of GGX is not made of D but of one quotient: seven halves of ε here, five on the
             // other side.
-            let roundings = if spec.shape == Shape::Ggx { 4.5 } else { 2.0 };
+            let roundings = if spec.shape == Shape::GGX { 4.5 } else { 2.0 };
             near("D_w σ", vndf * surface.sigma(direction), facing * surface.d(normal), roundings)?;
         }
         Ok(())
@@ -212,18 +213,20 @@ fn single_precision_agrees_with_double() {
         let (narrow, exact) = (built::<f32>(&spec)?, built::<f64>(&spec)?);
         let (v, direction) = (vec3::<f64>(wide(w)), w.into());
         let skew = skewness(&spec);
-        // Below the horizon a Gaussian tail is seen, whose exponent is that of the direction's
-        // slope.
-        let exponent = if w[2] < 0.0 && spec.shape == Shape::Beckmann {
+        // Below the horizon a tail is seen: a Gaussian's exponent is that of the direction's slope.
+        let gamma = spec.distribution().gamma;
+        let exponent = if w[2] >= 0.0 {
+            0.0
+        } else if gamma == f64::INFINITY {
             let [x, y] = spec.factor::<f64>().map(|c| c[0] * v.x + c[1] * v.y);
             v.z * v.z / (x * x + y * y)
         } else {
-            0.0
+            (gamma - 2.0).max(0.0)
         };
         let area = |name, a: f32, b: f64| near(name, a, b as f32, (8.0 + 3.0 * exponent) * skew);
         // A spline's σ from below is a difference; and next to the nadir the closed mask of α = 1
         // underflows.
-        if w[2] >= 0.0 || (spec.exact_mask() && exact.sigma(v) > 1e-20) {
+        if w[2] >= 0.0 || (spec.mask() == Mask::Exact && exact.sigma(v) > 1e-20) {
             area("σ", narrow.sigma(direction), exact.sigma(v))?;
         }
         if w[2] > 0.0 {

@@ -41,7 +41,7 @@ fn isotropic_surfaces_have_no_azimuth<T: Scalar>() {
     let shapes = (any::<bool>(), alpha(), 0.0..1.0, 0.0..TAU, 0.0..TAU);
     check(2000, shapes, |(ggx, alpha, z, phi, psi)| {
         let spec =
-            Spec::new(if ggx { Shape::Ggx } else { Shape::Beckmann }, Widths::Isotropic(alpha), Move::Stay);
+            Spec::new(if ggx { Shape::GGX } else { Shape::BECKMANN }, Widths::Isotropic(alpha), Move::Stay);
         let surface = built::<T>(&spec)?;
         let (w, v) = (at_height::<T>(z, phi), at_height::<T>(z, psi));
         let roundings = roundings_of_d(&spec, wide(w), 0.0);
@@ -60,10 +60,10 @@ fn equal_widths_are_isotropic<T: Scalar>() {
         let error = |_| TestCaseError::reject("range");
         let roundings = |shape| roundings_of_d(&spec(shape), wide(w), 0.0);
         let (a, b) = (Ggx::isotropic(alpha).map_err(error)?, Ggx::anisotropic(alpha, alpha).map_err(error)?);
-        same(&a, &b, w, roundings(Shape::Ggx), 4.0)?;
+        same(&a, &b, w, roundings(Shape::GGX), 4.0)?;
         let (a, b) =
             (Beckmann::isotropic(alpha).map_err(error)?, Beckmann::anisotropic(alpha, alpha).map_err(error)?);
-        same(&a, &b, w, roundings(Shape::Beckmann), 4.0)
+        same(&a, &b, w, roundings(Shape::BECKMANN), 4.0)
     });
 }
 
@@ -80,7 +80,7 @@ fn diagonal_matrices_are_axis_aligned<T: Scalar>() {
             &Microsurface::new(Ggx, Linear::from(matrix)),
             &Microsurface::new(Ggx, aligned),
             w,
-            roundings(Shape::Ggx),
+            roundings(Shape::GGX),
             4.0,
         )?;
         same(
@@ -88,7 +88,7 @@ fn diagonal_matrices_are_axis_aligned<T: Scalar>() {
             &Microsurface::new(Beckmann, aligned),
             w,
             // 4.2 seen where the exponent is nearly nothing.
-            1.25 * roundings(Shape::Beckmann),
+            1.25 * roundings(Shape::BECKMANN),
             4.0,
         )
     });
@@ -99,26 +99,26 @@ fn diagonal_matrices_are_axis_aligned<T: Scalar>() {
 fn linear_densities_are_those_of_their_matrix<T: Scalar>() {
     check(4000, (widths(), strictly_above::<T>()), |(widths, w)| {
         let spec = |shape| Spec::new(shape, widths, Move::Stay);
-        let [[a, b], [c, d]] = spec(Shape::Ggx).factor::<T>();
+        let [[a, b], [c, d]] = spec(Shape::GGX).factor::<T>();
         let [x, y, z] = wide(w);
         let det = a * d - b * c;
         let (p, q) = ((d * x - c * y) / det, (a * y - b * x) / det);
         let (r, s) = (a * x + b * y, c * x + d * y);
-        let skew = skewness(&spec(Shape::Ggx));
-        let ggx = built::<T>(&spec(Shape::Ggx))?;
+        let skew = skewness(&spec(Shape::GGX));
+        let ggx = built::<T>(&spec(Shape::GGX))?;
         let sigma = 0.5 * (z + (z * z + r * r + s * s).sqrt());
         near("σ", ggx.sigma(w.into()), T::lit(sigma), 4.0 + 4.0 * skew)?;
         let sum = p * p + q * q;
         let (exact, roundings) = (
             1.0 / (PI * det * (sum + z * z) * (sum + z * z)),
-            roundings_of_d(&spec(Shape::Ggx), [x, y, z], 0.0) * skew,
+            roundings_of_d(&spec(Shape::GGX), [x, y, z], 0.0) * skew,
         );
         if roundings * T::EPSILON.to_f64() < 0.05 {
             near("D of GGX", ggx.d(w.into()), T::lit(exact), roundings)?;
         }
-        let beckmann = built::<T>(&spec(Shape::Beckmann))?;
+        let beckmann = built::<T>(&spec(Shape::BECKMANN))?;
         let exact = (-sum / (z * z)).exp() / (PI * det * z * z * z * z);
-        let roundings = roundings_of_d(&spec(Shape::Beckmann), [x, y, z], 0.0) * skew;
+        let roundings = roundings_of_d(&spec(Shape::BECKMANN), [x, y, z], 0.0) * skew;
         if roundings * T::EPSILON.to_f64() < 0.05 && exact > 1e-30 {
             near("D of Beckmann", beckmann.d(w.into()), T::lit(exact), 2.0 + roundings)?;
         }
@@ -197,7 +197,7 @@ fn transforms_compose<T: Scalar>() {
             return Ok(());
         };
         let spec = Spec::new(
-            Shape::Ggx,
+            Shape::GGX,
             Widths::AxisAligned(x, y),
             Move::Transform(product.map(|column| column.map(Real::to_f64))),
         );
@@ -220,10 +220,10 @@ fn rotations_leave_isotropic_surfaces<T: Scalar>() {
         let spec = |shape| Spec::new(shape, Widths::Isotropic(alpha), Move::Stay);
         let surface = Microsurface::new(Ggx, map);
         let turned = surface.transformed(rotation).expect("in range as before");
-        same(&turned, &surface, w, 2.0 * roundings_of_d(&spec(Shape::Ggx), wide(w), 0.0), 6.0)?;
+        same(&turned, &surface, w, 2.0 * roundings_of_d(&spec(Shape::GGX), wide(w), 0.0), 6.0)?;
         let surface = Microsurface::new(Beckmann, map);
         let turned = surface.transformed(rotation).expect("in range as before");
-        same(&turned, &surface, w, 2.0 * roundings_of_d(&spec(Shape::Beckmann), wide(w), 0.0), 6.0)
+        same(&turned, &surface, w, 2.0 * roundings_of_d(&spec(Shape::BECKMANN), wide(w), 0.0), 6.0)
     });
 }
 
