@@ -7,29 +7,14 @@
 //! belong to them and make a cell of their own, whose expectation is what the integral of the pdf
 //! lacks to 1.
 
-use microsurface::profile::{SampleProfile, SampleVisibleProfile};
-use microsurface::{Beckmann, Ggx, Gtr, Real};
-
 use crate::chart::{Chart, Polar, Radial, Reflecting};
 use crate::chi_square::{Effort, Outcome, Subject, test};
 use crate::family::{Family, assert_rejected};
 use crate::points::Random;
 use crate::quadrature::{Mass, Quadrature, total};
+use crate::rows::{Distribution, Row};
 use crate::special::{count, erfc};
-use crate::surfaces::{
-    Conductor, MIRROR, SKEW, Shape, Surface, by_all_normals, by_mixture, by_visible_normals, surface,
-};
-
-/// The distributions.
-#[derive(Debug, Clone, Copy)]
-enum Distribution {
-    Ggx,
-    Beckmann,
-    /// γ = 1 with its exact mask.
-    Berry(f64),
-    /// α and γ.
-    Gtr(f64, f64),
-}
+use crate::surfaces::{Conductor, MIRROR, MapSpec, Normals, SKEW, Scalar, Surface, conductor, surface};
 
 /// A BRDF seen from a direction.
 struct Case {
@@ -40,59 +25,14 @@ struct Case {
     wo: [f64; 3],
 }
 
-/// Which normals are sampled.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Normals {
-    Visible,
-    All,
-    /// Uniform directions with this probability, else all normals.
-    Mixed(f64),
-}
-
-/// The BRDF of a profile and its surface.
-fn built<T, P>(profile: P, normals: Normals, shape: Shape) -> (Box<dyn Conductor>, Box<dyn Surface>)
-where
-    T: Real + microsurface::fresnel::Spectrum<Scalar = T>,
-    P: SampleVisibleProfile<T> + SampleProfile<T> + Copy + 'static,
-{
-    let brdf = match normals {
-        Normals::Visible => by_visible_normals::<T, _>(profile, shape),
-        Normals::All => by_all_normals::<T, _>(profile, shape),
-        Normals::Mixed(p) => by_mixture::<T, _>(profile, shape, p),
-    };
-    (brdf, surface::<T, _>(profile, shape))
-}
-
 impl Case {
-    fn new<T>(distribution: Distribution, normals: Normals, shape: Shape, degrees: f64) -> Self
-    where
-        T: Real + microsurface::fresnel::Spectrum<Scalar = T>,
-    {
-        let (brdf, surface, radial) = match distribution {
-            Distribution::Ggx => {
-                let (brdf, surface) = built::<T, _>(Ggx, normals, shape);
-                (brdf, surface, Radial::Ggx)
-            }
-            Distribution::Beckmann => {
-                let (brdf, surface) = built::<T, _>(Beckmann, normals, shape);
-                (brdf, surface, Radial::Beckmann)
-            }
-            Distribution::Berry(alpha) => {
-                let berry = *Gtr::closed::<1>(T::lit(alpha)).expect("a width").profile();
-                let (brdf, surface) = built::<T, _>(berry, normals, shape);
-                (brdf, surface, Radial::gtr(alpha, 1.0))
-            }
-            Distribution::Gtr(alpha, gamma) => {
-                let gtr = *Gtr::isotropic(T::lit(alpha), T::lit(gamma)).expect("in range").profile();
-                let (brdf, surface) = built::<T, _>(gtr, normals, shape);
-                (brdf, surface, Radial::gtr(alpha, gamma))
-            }
-        };
+    fn new<T: Scalar>(distribution: Distribution, normals: Normals, map: MapSpec, degrees: f64) -> Self {
+        let (brdf, surface) = (conductor::<T>(distribution, map, normals), surface::<T>(distribution, map));
         let scalar = if surface.bits() == 24 { 32 } else { 64 };
-        let label = format!("{distribution:?}, {normals:?} normals, {shape:?} f{scalar} at {degrees} deg");
+        let label = format!("{distribution:?}, {normals:?} normals, {map:?} f{scalar} at {degrees} deg");
         let wo = Random::new(8, 24).direction(degrees);
-        let chart = Reflecting { polar: Polar { radial, inverse: shape.inverse() }, wo };
-        Self { label, brdf, surface, chart, wo }
+        let polar = Polar { radial: Radial::of(distribution), inverse: map.inverse() };
+        Self { label, brdf, surface, chart: Reflecting { polar, wo }, wo }
     }
 
     /// wo mirrored about m, and wo·m, if it comes out above the horizon.
@@ -214,39 +154,50 @@ fn run(cases: &[Case], effort: Effort, [mut directions, mut furnace]: [Family; 2
     furnace.assert_accepted();
 }
 
+/// γ = 1 with its exact mask.
+fn berry(alpha: f64) -> Distribution {
+    Row::Gtr1.with(alpha, 1.0)
+}
+
 /// Widths, maps and angles for both ways of sampling.
 fn cases() -> Vec<Case> {
     let shapes = [
-        (Shape::Isotropic(1e-4), [0.0, 60.0, 85.0]),
-        (Shape::Isotropic(0.1), [30.0, 85.0, 89.5]),
-        (Shape::Isotropic(0.9), [0.0, 60.0, 89.5]),
-        (Shape::Axes(0.2, 0.7), [30.0, 60.0, 85.0]),
-        (Shape::Matrix(0.5, 0.01, 0.6), [0.0, 60.0, 85.0]),
-        (Shape::Moved(0.3, SKEW), [30.0, 60.0, 85.0]),
-        (Shape::Moved(0.3, MIRROR), [0.0, 60.0, 89.5]),
+        (MapSpec::Isotropic(1e-4), [0.0, 60.0, 85.0]),
+        (MapSpec::Isotropic(0.1), [30.0, 85.0, 89.5]),
+        (MapSpec::Isotropic(0.9), [0.0, 60.0, 89.5]),
+        (MapSpec::Axes(0.2, 0.7), [30.0, 60.0, 85.0]),
+        (MapSpec::Matrix(0.5, 0.01, 0.6), [0.0, 60.0, 85.0]),
+        (MapSpec::Moved(0.3, SKEW), [30.0, 60.0, 85.0]),
+        (MapSpec::Moved(0.3, MIRROR), [0.0, 60.0, 89.5]),
     ];
     let mut cases = Vec::new();
     for (shape, angles) in shapes {
         for degrees in angles {
-            cases.push(Case::new::<f64>(Distribution::Ggx, Normals::Visible, shape, degrees));
-            cases.push(Case::new::<f64>(Distribution::Beckmann, Normals::Visible, shape, degrees));
+            cases.push(Case::new::<f64>(Distribution::GGX, Normals::Visible, shape, degrees));
+            cases.push(Case::new::<f64>(Distribution::BECKMANN, Normals::Visible, shape, degrees));
         }
-        cases.push(Case::new::<f64>(Distribution::Ggx, Normals::All, shape, angles[1]));
-        cases.push(Case::new::<f64>(Distribution::Beckmann, Normals::All, shape, angles[0]));
-        cases.push(Case::new::<f32>(Distribution::Ggx, Normals::Visible, shape.scaled(2.0), angles[0]));
-        cases.push(Case::new::<f32>(Distribution::Beckmann, Normals::Visible, shape.scaled(2.0), angles[1]));
+        cases.push(Case::new::<f64>(Distribution::GGX, Normals::All, shape, angles[1]));
+        cases.push(Case::new::<f64>(Distribution::BECKMANN, Normals::All, shape, angles[0]));
+        cases.push(Case::new::<f32>(Distribution::GGX, Normals::Visible, shape.scaled(2.0), angles[0]));
+        cases.push(Case::new::<f32>(Distribution::BECKMANN, Normals::Visible, shape.scaled(2.0), angles[1]));
     }
-    for (alpha, shape) in [(0.05, Shape::Isotropic(1.0)), (0.3, Shape::Moved(0.8, SKEW))] {
+    // Every distribution once, from the rows.
+    let rows = Row::ALL.iter().flat_map(|row| row.of_width(0.2));
+    for (distribution, degrees) in rows.zip([20.0, 50.0, 75.0].into_iter().cycle()) {
+        let normals = if distribution.row.samples_visible() { Normals::Visible } else { Normals::All };
+        cases.push(Case::new::<f64>(distribution, normals, MapSpec::Axes(0.9, 0.6), degrees));
+    }
+    for (alpha, shape) in [(0.05, MapSpec::Isotropic(1.0)), (0.3, MapSpec::Moved(0.8, SKEW))] {
         for degrees in [0.0, 60.0] {
-            cases.push(Case::new::<f64>(Distribution::Berry(alpha), Normals::All, shape, degrees));
-            cases.push(Case::new::<f64>(Distribution::Berry(alpha), Normals::Visible, shape, degrees));
+            cases.push(Case::new::<f64>(berry(alpha), Normals::All, shape, degrees));
+            cases.push(Case::new::<f64>(berry(alpha), Normals::Visible, shape, degrees));
         }
         for gamma in [1.5, 3.4] {
             for degrees in [0.0, 60.0, 85.0] {
-                let gtr = Distribution::Gtr(alpha, gamma);
+                let gtr = Row::Gtr.with(alpha, gamma);
                 cases.push(Case::new::<f64>(gtr, Normals::Visible, shape, degrees));
             }
-            cases.push(Case::new::<f32>(Distribution::Gtr(alpha, gamma), Normals::Visible, shape, 30.0));
+            cases.push(Case::new::<f32>(Row::Gtr.with(alpha, gamma), Normals::Visible, shape, 30.0));
         }
     }
     cases
@@ -256,14 +207,14 @@ fn cases() -> Vec<Case> {
 fn mixtures() -> Vec<Case> {
     let mut cases = Vec::new();
     for (shape, p) in
-        [(Shape::Isotropic(0.9), 0.64), (Shape::Axes(0.4, 0.7), 0.25), (Shape::Moved(0.8, SKEW), 0.05)]
+        [(MapSpec::Isotropic(0.9), 0.64), (MapSpec::Axes(0.4, 0.7), 0.25), (MapSpec::Moved(0.8, SKEW), 0.05)]
     {
         for degrees in [0.0, 60.0, 85.0] {
-            cases.push(Case::new::<f64>(Distribution::Ggx, Normals::Mixed(p), shape, degrees));
-            cases.push(Case::new::<f32>(Distribution::Ggx, Normals::Mixed(1.0 - p), shape, degrees));
-            cases.push(Case::new::<f64>(Distribution::Berry(0.3), Normals::Mixed(p), shape, degrees));
+            cases.push(Case::new::<f64>(Distribution::GGX, Normals::Mixed(p), shape, degrees));
+            cases.push(Case::new::<f32>(Distribution::GGX, Normals::Mixed(1.0 - p), shape, degrees));
+            cases.push(Case::new::<f64>(berry(0.3), Normals::Mixed(p), shape, degrees));
         }
-        cases.push(Case::new::<f64>(Distribution::Beckmann, Normals::Mixed(p), shape, 30.0));
+        cases.push(Case::new::<f64>(Distribution::BECKMANN, Normals::Mixed(p), shape, 30.0));
     }
     cases
 }
@@ -275,8 +226,8 @@ fn sampled_mixtures_have_their_pdf_and_weights_the_albedo() {
 
 #[test]
 fn wrong_mixtures_are_rejected() {
-    let (p, shape) = (0.2, Shape::Axes(0.4, 0.7));
-    for distribution in [Distribution::Ggx, Distribution::Berry(0.3)] {
+    let (p, shape) = (0.2, MapSpec::Axes(0.4, 0.7));
+    for distribution in [Distribution::GGX, berry(0.3)] {
         let make = |normals, shape| Case::new::<f64>(distribution, normals, shape, 60.0);
         let case = make(Normals::Mixed(p), shape);
         let wrong = [
@@ -296,8 +247,8 @@ fn wrong_mixtures_are_rejected() {
         let mut weights = Weights::default();
         let warped = Run { warp: |[a, b]| [a, b * b], ..Run::new(Effort::QUICK, 2, &mut weights) };
         assert_rejected(&case.against(&|wi| case.brdf.pdf(wi, case.wo), ", u2 squared", warped));
-        let share = make(Normals::Mixed(p), Shape::Isotropic(0.9));
-        wrong_albedos(&share, &make(Normals::Mixed(p), Shape::Isotropic(0.927)));
+        let share = make(Normals::Mixed(p), MapSpec::Isotropic(0.9));
+        wrong_albedos(&share, &make(Normals::Mixed(p), MapSpec::Isotropic(0.927)));
     }
 }
 
@@ -309,15 +260,15 @@ fn sampled_directions_have_their_pdf_and_weights_the_albedo() {
 #[test]
 fn wrong_pdfs_and_weights_are_rejected() {
     let effort = Effort::QUICK;
-    let (axes, skew) = (Shape::Axes(0.2, 0.3), Shape::Moved(0.2, SKEW));
-    for distribution in [Distribution::Ggx, Distribution::Beckmann] {
+    let (axes, skew) = (MapSpec::Axes(0.2, 0.3), MapSpec::Moved(0.2, SKEW));
+    for distribution in [Distribution::GGX, Distribution::BECKMANN] {
         for normals in [Normals::Visible, Normals::All] {
             let make = |shape| Case::new::<f64>(distribution, normals, shape, 60.0);
             let reject = |case: &Case, pdf: &dyn Fn([f64; 3]) -> f64, why: &str| {
                 let mut weights = Weights::default();
                 assert_rejected(&case.against(pdf, why, Run::new(effort, 1, &mut weights)));
             };
-            for shape in [Shape::Isotropic(0.01), axes] {
+            for shape in [MapSpec::Isotropic(0.01), axes] {
                 let (case, wider) = (make(shape), make(shape.scaled(1.03)));
                 reject(&case, &|wi| wider.brdf.pdf(wi, case.wo), ", alpha off by 3 %");
             }
@@ -342,7 +293,7 @@ fn wrong_pdfs_and_weights_are_rejected() {
             let warped = Run { warp: |[a, b]| [a * a, b], ..Run::new(effort, 2, &mut weights) };
             let pdf = |wi| case.brdf.pdf(wi, case.wo);
             assert_rejected(&case.against(&pdf, ", u1 squared", warped));
-            wrong_albedos(&make(Shape::Isotropic(0.9)), &make(Shape::Isotropic(0.927)));
+            wrong_albedos(&make(MapSpec::Isotropic(0.9)), &make(MapSpec::Isotropic(0.927)));
         }
     }
 }
@@ -377,7 +328,7 @@ fn wrong_albedos(case: &Case, wider: &Case) {
 /// direction they came from.
 #[test]
 fn half_vectors_reflect_back() {
-    let case = Case::new::<f64>(Distribution::Ggx, Normals::Visible, Shape::Moved(0.3, SKEW), 60.0);
+    let case = Case::new::<f64>(Distribution::GGX, Normals::Visible, MapSpec::Moved(0.3, SKEW), 60.0);
     let mut random = Random::new(4, 53);
     for _ in 0..1000 {
         let u = [random.uniform(), random.uniform()];

@@ -5,17 +5,17 @@
 //! part of the points: evenly spread points come out as a random part of themselves.
 
 use microsurface::gtr::components::Components;
-use microsurface::{Ggx, Gtr};
 
 use crate::points::{LowDiscrepancy, Points, Random};
+use crate::rows::{Distribution, Row};
 use crate::special::count;
-use crate::surfaces::{Conductor, Shape, Visible, by_visible_normals, visible};
+use crate::surfaces::{Conductor, MapSpec, Normals, Visible, conductor, visible};
 
 /// The points of a set: 32².
 const SIDE: u32 = 32;
 const POINTS: usize = 1024;
 const SETS: usize = 128;
-const PLAIN: Shape = Shape::Isotropic(1.0);
+const PLAIN: MapSpec = MapSpec::Isotropic(1.0);
 
 type Set = Vec<[f64; 2]>;
 
@@ -34,16 +34,16 @@ struct Scene {
 
 impl Scene {
     fn new(alpha: f64, gamma: f64, degrees: f64) -> Self {
-        let profile = *Gtr::isotropic(alpha, gamma).expect("in range").profile();
+        let distribution = Row::Gtr.with(alpha, gamma);
         let (sin, cos) = degrees.to_radians().sin_cos();
-        let ggx = |alpha: f64| visible::<f64, _>(Ggx, Shape::Isotropic(alpha));
+        let ggx = |alpha: f64| visible::<f64>(Distribution::GGX, MapSpec::Isotropic(alpha));
         let components = Components::new(alpha, gamma).expect("in range");
         Self {
             alpha,
             gamma,
             wo: [sin, 0.0, cos],
-            gtr: visible::<f64, _>(profile, PLAIN),
-            brdf: by_visible_normals::<f64, _>(profile, PLAIN),
+            gtr: visible::<f64>(distribution, PLAIN),
+            brdf: conductor::<f64>(distribution, PLAIN, Normals::Visible),
             envelope: ggx(alpha),
             components: components.iter().map(|c| (c.weight, c.alpha * c.alpha, ggx(c.alpha))).collect(),
         }

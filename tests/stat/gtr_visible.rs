@@ -1,14 +1,15 @@
 //! Visible normals of GTR: `sample_vndf` against `vndf`, for every way to make a surface that has
 //! them.
 
+use microsurface::Gtr;
 use microsurface::gtr::table::GtrTable;
-use microsurface::{Gtr, Real};
 
 use crate::chart::{Chart, Mixed};
 use crate::chi_square::{Effort, Outcome, Subject, test};
 use crate::family::{Family, assert_impossible, assert_rejected};
 use crate::points::{Points, Random};
-use crate::surfaces::{SKEW, Shape, Visible, visible};
+use crate::rows::Row;
+use crate::surfaces::{MapSpec, SKEW, Scalar, Visible, visible, visible_of_profile};
 use crate::visible::Warped;
 
 const GAMMAS: [f64; 13] = [0.3, 0.7, 1.0, 1.3, 1.5, 1.9, 2.0, 2.3, 2.5, 3.0, 3.4, 4.0, 6.0];
@@ -25,52 +26,33 @@ fn masking(w: [f64; 3]) -> f64 {
 /// Fewer columns than elsewhere, as the chart inverts the second coordinate numerically.
 const QUICK: Effort = Effort { columns: 6, ..Effort::QUICK };
 
-/// The ways to make a surface other than `Gtr::isotropic`.
+/// The ways to make a surface that are no rows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Kind {
-    WithNodes,
-    HeavyTailed,
-    Closed,
+    Row(Row),
+    TwelveNodes,
     Table,
 }
 
-/// The ways with this tail.
+/// The ways to make a surface with this tail, `Gtr::isotropic` apart.
 fn other_kinds(gamma: f64) -> Vec<Kind> {
-    let mut kinds = vec![Kind::WithNodes, Kind::Table];
-    if gamma <= 2.0 {
-        kinds.push(Kind::HeavyTailed);
-    }
-    if [1.0, 3.0, 6.0].contains(&gamma) {
-        kinds.push(Kind::Closed);
-    }
-    kinds
+    let visible = |row: &&Row| row.columns().own_width && row.samples_visible() && **row != Row::Gtr;
+    let with_this_tail = |row: &&Row| row.columns().range[0] <= gamma && gamma <= row.columns().range[1];
+    let rows = Row::ALL.iter().filter(visible).filter(with_this_tail);
+    [Kind::TwelveNodes, Kind::Table].into_iter().chain(rows.map(|&row| Kind::Row(row))).collect()
 }
 
-fn build(kind: Kind, alpha: f64, gamma: f64, shape: Shape) -> Box<dyn Visible> {
+fn build(kind: Kind, alpha: f64, gamma: f64, map: MapSpec) -> Box<dyn Visible> {
     match kind {
-        Kind::WithNodes => {
-            visible::<f64, _>(*Gtr::with_nodes::<12>(alpha, gamma).expect("in range").profile(), shape)
+        Kind::Row(row) => visible::<f64>(row.with(alpha, gamma), map),
+        Kind::TwelveNodes => {
+            visible_of_profile(*Gtr::with_nodes::<12>(alpha, gamma).expect("in range").profile(), map)
         }
-        Kind::HeavyTailed => {
-            visible::<f64, _>(*Gtr::heavy_tailed::<8>(alpha, gamma).expect("in range").profile(), shape)
-        }
-        Kind::Closed if gamma < 2.0 => {
-            visible::<f64, _>(*Gtr::closed::<1>(alpha).expect("in range").profile(), shape)
-        }
-        Kind::Closed if gamma < 4.0 => {
-            visible::<f64, _>(*Gtr::closed::<3>(alpha).expect("in range").profile(), shape)
-        }
-        Kind::Closed => visible::<f64, _>(*Gtr::closed::<6>(alpha).expect("in range").profile(), shape),
         Kind::Table => {
             let table = GtrTable::<f64, 8>::new(gamma, 1e-3).expect("in range");
-            visible::<f64, _>(*table.isotropic(alpha).expect("in range").profile(), shape)
+            visible_of_profile(*table.isotropic(alpha).expect("in range").profile(), map)
         }
     }
-}
-
-fn general<T: Real>(alpha: f64, gamma: f64, shape: Shape) -> Box<dyn Visible> {
-    let surface = Gtr::isotropic(T::lit(alpha), T::lit(gamma)).expect("in range");
-    visible::<T, _>(*surface.profile(), shape)
 }
 
 /// A surface seen from a direction.
@@ -89,7 +71,7 @@ impl Case {
         name: &str,
         surface: Box<dyn Visible>,
         [alpha, gamma]: [f64; 2],
-        shape: Shape,
+        shape: MapSpec,
         view: (f64, u64),
     ) -> Self {
         let (degrees, seed) = view;
@@ -100,8 +82,14 @@ impl Case {
     }
 
     /// `Gtr::isotropic`.
-    pub(crate) fn new<T: Real>(alpha: f64, gamma: f64, shape: Shape, degrees: f64, seed: u64) -> Self {
-        Self::of("Isotropic", general::<T>(alpha, gamma, shape), [alpha, gamma], shape, (degrees, seed))
+    pub(crate) fn new<T: Scalar>(alpha: f64, gamma: f64, shape: MapSpec, degrees: f64, seed: u64) -> Self {
+        Self::of(
+            "Isotropic",
+            visible::<T>(Row::Gtr.with(alpha, gamma), shape),
+            [alpha, gamma],
+            shape,
+            (degrees, seed),
+        )
     }
 
     fn against(
@@ -132,13 +120,15 @@ impl Case {
 }
 
 /// A map of one of four kinds: none, along the axes, any matrix, and a turned and sheared one.
-fn map(kind: usize, random: &mut Random) -> Shape {
+fn map(kind: usize, random: &mut Random) -> MapSpec {
     let mut entry = || 2.0 * random.uniform() - 1.0;
     match kind % 4 {
-        0 => Shape::Isotropic(1.0),
-        1 => Shape::Axes(10_f64.powf(entry()), 10_f64.powf(entry())),
-        2 => Shape::Moved(1.0, [[entry(), entry()], [entry(), entry()]]),
-        _ => Shape::Moved(10_f64.powf(0.5 * entry()), [[1.0 + 0.5 * entry(), 2.0 * entry()], [entry(), 1.0]]),
+        0 => MapSpec::Isotropic(1.0),
+        1 => MapSpec::Axes(10_f64.powf(entry()), 10_f64.powf(entry())),
+        2 => MapSpec::Moved(1.0, [[entry(), entry()], [entry(), entry()]]),
+        _ => {
+            MapSpec::Moved(10_f64.powf(0.5 * entry()), [[1.0 + 0.5 * entry(), 2.0 * entry()], [entry(), 1.0]])
+        }
     }
 }
 
@@ -158,7 +148,7 @@ fn cases_in_turn() -> Vec<Case> {
         let surface = build(kind, alpha, gamma, shape);
         let case = Case::of(&format!("{kind:?}"), surface, [alpha, gamma], shape, (angle(4), seed + 1));
         // But for this kind components are made for every sample, which takes ten times as long.
-        cases.push(Case { part: if kind == Kind::WithNodes { 1 } else { 5 }, ..case });
+        cases.push(Case { part: if kind == Kind::TwelveNodes { 1 } else { 5 }, ..case });
         if turn % 4 == 0 {
             let shape = map(turn / 4, &mut random);
             cases.push(Case::new::<f32>(alpha, gamma, shape, angle(7), seed + 2));
@@ -212,8 +202,8 @@ fn wrong_densities_of_visible_normals_of_gtr_are_rejected() {
     let (fine, effort) = (Effort { samples: 300_000, ..QUICK }, QUICK);
     for (alpha, gamma) in [(0.5, 0.7), (0.1, 1.5), (0.05, 2.0), (0.2, 2.5), (0.05, 3.4), (0.4, 6.0)] {
         let make = |alpha, gamma, shape| Case::new::<f64>(alpha, gamma, shape, 60.0, 3);
-        let axes = Shape::Axes(0.8, 1.1);
-        let skew = Shape::Moved(0.9, SKEW);
+        let axes = MapSpec::Axes(0.8, 1.1);
+        let skew = MapSpec::Moved(0.9, SKEW);
         let case = make(alpha, gamma, skew);
         let reject = |case: &Case, wrong: &Case, why: &str| {
             let sample = |u| case.surface.sample_vndf(case.w, u);

@@ -17,6 +17,9 @@ mod mixture;
 mod normals;
 mod points;
 mod quadrature;
+#[path = "../surfaces/mod.rs"]
+#[expect(dead_code, reason = "not every crate reads every column")]
+mod rows;
 mod special;
 mod stratification;
 mod surfaces;

@@ -6,11 +6,11 @@
 //! samples.
 
 use microsurface::bsdf::{AllNormals, UniformMixture};
-use microsurface::{Ggx, Gtr};
 
 use crate::points::Random;
+use crate::rows::{Distribution, Row};
 use crate::special::count;
-use crate::surfaces::{Conductor, Shape, by_all_normals, by_mixture, by_visible_normals};
+use crate::surfaces::{Conductor, MapSpec, Normals, conductor};
 
 /// GTR, and GGX where there is no γ.
 const GAMMAS: [Option<f64>; 5] = [Some(0.1), Some(1.0), Some(1.5), None, Some(4.0)];
@@ -52,15 +52,15 @@ fn variances(samplings: &[&dyn Conductor], proposal: &dyn Conductor, degrees: f6
 /// The variances of all normals and of the mixture; for GGX those of visible normals too.
 fn measured(alpha: f64, gamma: Option<f64>, degrees: f64, n: u32) -> Vec<[f64; 2]> {
     let p = UniformMixture::for_alpha(AllNormals, alpha).expect("a width").probability();
-    let Some(gamma) = gamma else {
-        let shape = Shape::Isotropic(alpha);
-        let [all, visible] = [by_all_normals::<f64, _>(Ggx, shape), by_visible_normals::<f64, _>(Ggx, shape)];
-        let [mixed, half] = [p, 0.5].map(|p| by_mixture::<f64, _>(Ggx, shape, p));
-        return variances(&[&*all, &*mixed, &*visible], &*half, degrees, n);
+    let (distribution, map) = match gamma {
+        None => (Distribution::GGX, MapSpec::Isotropic(alpha)),
+        Some(gamma) => (Row::SplineGtr.with(alpha, gamma), MapSpec::Isotropic(1.0)),
     };
-    let (gtr, shape) = (*Gtr::spline(alpha, gamma).expect("in range").profile(), Shape::Isotropic(1.0));
-    let all = by_all_normals::<f64, _>(gtr, shape);
-    let [mixed, half] = [p, 0.5].map(|p| by_mixture::<f64, _>(gtr, shape, p));
+    let brdf = |normals| conductor::<f64>(distribution, map, normals);
+    let [all, mixed, half] = [Normals::All, Normals::Mixed(p), Normals::Mixed(0.5)].map(brdf);
+    if gamma.is_none() {
+        return variances(&[&*all, &*mixed, &*brdf(Normals::Visible)], &*half, degrees, n);
+    }
     variances(&[&*all, &*mixed], &*half, degrees, n)
 }
 

@@ -1,14 +1,12 @@
 //! All normals: `sample_d` against `pdf_d`.
 
-use microsurface::profile::SampleProfile;
-use microsurface::{Beckmann, Ggx, Gtr, Real};
-
 use crate::chart::{Chart, Polar, Radial};
 use crate::chi_square::{Effort, Outcome, Subject, test};
 use crate::family::{Family, assert_impossible, assert_rejected};
 use crate::ks;
 use crate::points::{Points, Random};
-use crate::surfaces::{MIRROR, SKEW, Shape, Surface, surface};
+use crate::rows::{Distribution, Row};
+use crate::surfaces::{MIRROR, MapSpec, SKEW, Scalar, Surface, surface};
 
 /// A distribution under a shape: the crate's surface and the test's own idea of it.
 pub(crate) struct Case {
@@ -18,15 +16,10 @@ pub(crate) struct Case {
 }
 
 impl Case {
-    pub(crate) fn new<T: Real, P: SampleProfile<T> + core::fmt::Debug + 'static>(
-        name: &str,
-        profile: P,
-        radial: Radial,
-        shape: Shape,
-    ) -> Self {
-        let surface = surface::<T, P>(profile, shape);
-        let label = format!("{name} {shape:?} f{}", if surface.bits() == 24 { 32 } else { 64 });
-        Self { label, surface, polar: Polar { radial, inverse: shape.inverse() } }
+    pub(crate) fn new<T: Scalar>(distribution: Distribution, map: MapSpec) -> Self {
+        let surface = surface::<T>(distribution, map);
+        let label = format!("{distribution:?} {map:?} f{}", if surface.bits() == 24 { 32 } else { 64 });
+        Self { label, surface, polar: Polar { radial: Radial::of(distribution), inverse: map.inverse() } }
     }
 
     /// The sampler of this surface against the density of `other`.
@@ -55,64 +48,48 @@ impl Case {
     }
 }
 
-fn ggx<T: Real>(shape: Shape) -> Case {
-    Case::new::<T, _>("Ggx", Ggx, Radial::Ggx, shape)
-}
-
-fn beckmann<T: Real>(shape: Shape) -> Case {
-    Case::new::<T, _>("Beckmann", Beckmann, Radial::Beckmann, shape)
-}
-
-fn spline<T: Real>(alpha: f64, gamma: f64, shape: Shape) -> Case {
-    let profile = *Gtr::spline(T::lit(alpha), T::lit(gamma)).expect("a width and a tail").profile();
-    let name = format!("Gtr alpha {alpha} gamma {gamma}");
-    Case::new::<T, _>(&name, profile, Radial::gtr(alpha, gamma), shape)
-}
-
-fn closed<T: Real, const G: u8>(alpha: f64, shape: Shape) -> Case {
-    let profile = *Gtr::closed::<G>(T::lit(alpha)).expect("a width").profile();
-    let name = format!("Gtr closed {G} alpha {alpha}");
-    Case::new::<T, _>(&name, profile, Radial::gtr(alpha, f64::from(G)), shape)
-}
-
 /// The widths of the isotropic cases of GGX and Beckmann.
 pub(crate) const WIDTHS: [f64; 7] = [1e-4, 1e-3, 0.01, 0.1, 0.5, 0.9, 2.5];
 
 /// The other maps, for a width α.
-pub(crate) fn shapes(alpha: f64) -> [Shape; 5] {
+pub(crate) fn shapes(alpha: f64) -> [MapSpec; 5] {
     [
-        Shape::Axes(alpha, 4.0 * alpha),
-        Shape::Axes(30.0 * alpha, alpha),
-        Shape::Matrix(3.0 * alpha, alpha, 0.6),
-        Shape::Moved(alpha, SKEW),
-        Shape::Moved(alpha, MIRROR),
+        MapSpec::Axes(alpha, 4.0 * alpha),
+        MapSpec::Axes(30.0 * alpha, alpha),
+        MapSpec::Matrix(3.0 * alpha, alpha, 0.6),
+        MapSpec::Moved(alpha, SKEW),
+        MapSpec::Moved(alpha, MIRROR),
     ]
 }
 
-fn shape_invariant_cases<T: Real>(widths: &[f64], widths_of_shapes: &[f64]) -> Vec<Case> {
-    let isotropic = widths.iter().map(|&alpha| Shape::Isotropic(alpha));
-    let others = widths_of_shapes.iter().flat_map(|&alpha| shapes(alpha));
-    isotropic.chain(others).flat_map(|shape| [ggx::<T>(shape), beckmann::<T>(shape)]).collect()
+/// The distributions without a width of their own: isotropic of some widths, under maps of others.
+fn plain_cases<T: Scalar>(widths: &[f64], widths_of_maps: &[f64]) -> Vec<Case> {
+    let isotropic = widths.iter().map(|&alpha| MapSpec::Isotropic(alpha));
+    let maps = isotropic.chain(widths_of_maps.iter().flat_map(|&alpha| shapes(alpha)));
+    maps.flat_map(|map| distributions(false, 1.0).map(move |d| Case::new::<T>(d, map))).collect()
 }
 
-const PLAIN: Shape = Shape::Isotropic(1.0);
+/// The distributions of an own width, or those without.
+fn distributions(own_width: bool, alpha: f64) -> impl Iterator<Item = Distribution> {
+    Row::with_own_density()
+        .filter(move |row| row.columns().own_width == own_width)
+        .flat_map(move |row| row.of_width(alpha))
+}
 
-/// Every γ with every width, and the closed forms with some; under other maps in turn.
-fn gtr_cases<T: Real>(widths: &[f64]) -> Vec<Case> {
-    let mut cases = Vec::new();
+const PLAIN: MapSpec = MapSpec::Isotropic(1.0);
+
+/// The distributions with a width of their own, of two of `widths` each and under a map; all by
+/// turns.
+fn own_width_cases<T: Scalar>(widths: &[f64]) -> Vec<Case> {
     let maps = shapes(0.7);
-    for (turn, gamma) in [0.3, 1.0, 1.5, 2.0, 2.7, 4.0].into_iter().enumerate() {
-        for &alpha in widths {
-            cases.push(spline::<T>(alpha, gamma, PLAIN));
+    let mut cases = Vec::new();
+    for (turn, distribution) in distributions(true, 1.0).enumerate() {
+        let of_width = |k: usize| distribution.row.with(widths[k % widths.len()], distribution.gamma);
+        cases.push(Case::new::<T>(of_width(turn), PLAIN));
+        cases.push(Case::new::<T>(of_width(turn + 1), maps[turn % maps.len()]));
+        if widths.len() > 2 {
+            cases.push(Case::new::<T>(of_width(turn + widths.len() / 2), PLAIN));
         }
-        cases.push(spline::<T>(widths[turn % widths.len()], gamma, maps[turn % maps.len()]));
-    }
-    for (alpha, shape) in [(0.003, PLAIN), (0.2, PLAIN), (0.05, Shape::Moved(1.0, SKEW))] {
-        cases.push(closed::<T, 0>(alpha, shape));
-        cases.push(closed::<T, 1>(alpha, shape));
-        cases.push(closed::<T, 2>(alpha, shape));
-        cases.push(closed::<T, 3>(alpha, shape));
-        cases.push(closed::<T, 4>(alpha, shape));
     }
     cases
 }
@@ -125,26 +102,26 @@ fn run(mut family: Family, cases: &[Case], effort: Effort) {
 }
 
 #[test]
-fn sample_d_of_ggx_and_beckmann_has_its_density() {
-    let mut cases = shape_invariant_cases::<f64>(&WIDTHS, &[1e-4, 0.05, 0.4]);
-    cases.extend(shape_invariant_cases::<f32>(&[1e-4, 0.01, 0.9], &[1e-3, 0.3]));
+fn sample_d_of_plain_distributions_has_its_density() {
+    let mut cases = plain_cases::<f64>(&WIDTHS, &[1e-4, 0.05, 0.4]);
+    cases.extend(plain_cases::<f32>(&[1e-4, 0.01, 0.9], &[1e-3, 0.3]));
     run(Family::new("sample_d"), &cases, Effort::QUICK);
 }
 
 #[test]
-fn sample_d_of_gtr_has_its_density() {
-    let mut cases = gtr_cases::<f64>(&[1e-4, 1e-3, 0.01, 0.1, 0.5, 1.0]);
-    cases.extend(gtr_cases::<f32>(&[1e-4, 0.1]));
-    run(Family::new("sample_d of GTR"), &cases, Effort::QUICK);
+fn sample_d_of_distributions_of_own_width_has_its_density() {
+    let mut cases = own_width_cases::<f64>(&[1e-4, 1e-3, 0.01, 0.1, 0.5, 1.0]);
+    cases.extend(own_width_cases::<f32>(&[1e-4, 0.1]));
+    run(Family::new("sample_d, own widths"), &cases, Effort::QUICK);
 }
 
 /// tan²θ/α² and azimuth, or v^{1−γ} of GTR, against their closed forms.
 #[test]
 fn marginals_of_sample_d_have_their_closed_forms() {
-    let mut cases = shape_invariant_cases::<f64>(&[1e-4, 0.1, 2.5], &[0.01]);
-    cases.extend(shape_invariant_cases::<f32>(&[1e-3, 0.9], &[0.2]));
-    cases.extend(gtr_cases::<f64>(&[1e-4, 0.3]));
-    cases.extend(gtr_cases::<f32>(&[0.02]));
+    let mut cases = plain_cases::<f64>(&[1e-4, 0.1, 2.5], &[0.01]);
+    cases.extend(plain_cases::<f32>(&[1e-3, 0.9], &[0.2]));
+    cases.extend(own_width_cases::<f64>(&[1e-4, 0.3]));
+    cases.extend(own_width_cases::<f32>(&[0.02]));
     let mut family = Family::new("marginals of sample_d");
     for (case, seed) in cases.iter().zip(1_000..) {
         marginals(&mut family, case, 40_000, seed);
@@ -172,10 +149,11 @@ fn marginal_p_values(case: &Case, chart: &Polar, samples: usize, seed: u64) -> [
 #[test]
 fn wrong_densities_of_all_normals_are_rejected() {
     let effort = Effort::QUICK;
-    let axes = Shape::Axes(0.1, 0.13);
-    let skew = Shape::Moved(0.05, SKEW);
-    for make in [ggx::<f64>, beckmann::<f64>, |shape| spline::<f64>(0.2, 1.5, shape)] {
-        for shape in [axes, skew, Shape::Isotropic(0.01)] {
+    let axes = MapSpec::Axes(0.1, 0.13);
+    let skew = MapSpec::Moved(0.05, SKEW);
+    for distribution in [Distribution::GGX, Distribution::BECKMANN, Row::SplineGtr.with(0.2, 1.5)] {
+        let make = |map| Case::new::<f64>(distribution, map);
+        for shape in [axes, skew, MapSpec::Isotropic(0.01)] {
             let (case, wider) = (make(shape), make(shape.scaled(1.03)));
             assert_rejected(&case.against(&wider, ", alpha off by 3 %", effort, &mut Random::new(1, 53)));
         }
@@ -209,16 +187,18 @@ fn wrong_densities_of_all_normals_are_rejected() {
         assert_rejected(&outcome(", u2 squared", |[a, b]| [a, b * b], 1.0));
     }
     for gamma in [0.3, 2.7, 4.0] {
-        let (case, other) = (spline::<f64>(0.1, gamma, PLAIN), spline::<f64>(0.1, gamma - 0.2, PLAIN));
+        let make = |gamma| Case::new::<f64>(Row::SplineGtr.with(0.1, gamma), PLAIN);
+        let (case, other) = (make(gamma), make(gamma - 0.2));
         assert_rejected(&case.against(&other, ", gamma off by 0.2", effort, &mut Random::new(5, 53)));
     }
 }
 
 #[test]
 fn wrong_marginals_of_all_normals_are_rejected() {
-    for make in [ggx::<f64>, beckmann::<f64>, |shape| spline::<f64>(0.2, 2.7, shape)] {
-        let case = make(Shape::Isotropic(0.103));
-        let wrong = make(Shape::Isotropic(0.1)).polar;
+    for distribution in [Distribution::GGX, Distribution::BECKMANN, Row::SplineGtr.with(0.2, 2.7)] {
+        let make = |map| Case::new::<f64>(distribution, map);
+        let case = make(MapSpec::Isotropic(0.103));
+        let wrong = make(MapSpec::Isotropic(0.1)).polar;
         let [radial, azimuthal] = marginal_p_values(&case, &wrong, 100_000, 9);
         eprintln!("negative control {}, alpha off by 3 %: p = {radial:.1e}", case.label);
         assert!(radial < 1e-5 && azimuthal > 1e-5, "{}: {radial:e}, {azimuthal:e}", case.label);
@@ -228,9 +208,9 @@ fn wrong_marginals_of_all_normals_are_rejected() {
 #[test]
 #[ignore = "long: about a quarter of an hour; see main.rs"]
 fn long_sample_d() {
-    let mut cases = shape_invariant_cases::<f64>(&WIDTHS, &[1e-4, 0.05, 0.4]);
-    cases.extend(shape_invariant_cases::<f32>(&WIDTHS, &[1e-3, 0.3]));
-    cases.extend(gtr_cases::<f64>(&[1e-4, 1e-3, 0.01, 0.1, 0.5, 1.0]));
-    cases.extend(gtr_cases::<f32>(&[1e-3, 0.1]));
+    let mut cases = plain_cases::<f64>(&WIDTHS, &[1e-4, 0.05, 0.4]);
+    cases.extend(plain_cases::<f32>(&WIDTHS, &[1e-3, 0.3]));
+    cases.extend(own_width_cases::<f64>(&[1e-4, 1e-3, 0.01, 0.1, 0.5, 1.0]));
+    cases.extend(own_width_cases::<f32>(&[1e-3, 0.1]));
     run(Family::long("long sample_d"), &cases, Effort::LONG);
 }

@@ -6,14 +6,12 @@
 //! χ² statistic, about 1 a cell for random points, falls far below. Both sets of points begin at
 //! u = (0, 0) exactly.
 
-use microsurface::{Beckmann, Ggx, Gtr};
-
-use crate::chart::{Radial, VisibleProfile};
 use crate::chi_square::{Effort, Outcome};
 use crate::gtr_visible;
 use crate::normals;
 use crate::points::{Hammersley, LowDiscrepancy, Points, Random};
-use crate::surfaces::{SKEW, Shape};
+use crate::rows::{Distribution, Row};
+use crate::surfaces::{MapSpec, SKEW};
 use crate::visible;
 
 const LOG2_SAMPLES: u32 = 17;
@@ -46,14 +44,14 @@ fn check(label: &str, largest: f64, run: &dyn Fn(&mut dyn Points) -> Outcome) {
 
 #[test]
 fn sample_d_keeps_even_points_even() {
-    let (skew, flat) = (Shape::Moved(0.1, SKEW), Shape::Isotropic(1.0));
-    let gtr = |gamma| *Gtr::spline(0.05_f64, gamma).unwrap().profile();
+    let (skew, flat) = (MapSpec::Moved(0.1, SKEW), MapSpec::Isotropic(1.0));
+    let gtr = |gamma| Row::SplineGtr.with(0.05, gamma);
     let cases = [
-        normals::Case::new::<f64, _>("Ggx", Ggx, Radial::Ggx, skew),
-        normals::Case::new::<f32, _>("Ggx", Ggx, Radial::Ggx, Shape::Isotropic(1e-3)),
-        normals::Case::new::<f64, _>("Beckmann", Beckmann, Radial::Beckmann, skew),
-        normals::Case::new::<f64, _>("Gtr 0.3", gtr(0.3), Radial::gtr(0.05, 0.3), flat),
-        normals::Case::new::<f64, _>("Gtr 2.7", gtr(2.7), Radial::gtr(0.05, 2.7), skew),
+        normals::Case::new::<f64>(Distribution::GGX, skew),
+        normals::Case::new::<f32>(Distribution::GGX, MapSpec::Isotropic(1e-3)),
+        normals::Case::new::<f64>(Distribution::BECKMANN, skew),
+        normals::Case::new::<f64>(gtr(0.3), flat),
+        normals::Case::new::<f64>(gtr(2.7), skew),
     ];
     for case in &cases {
         check(&case.label, LARGEST_RATIO, &|points| case.outcome(EFFORT, points));
@@ -62,12 +60,12 @@ fn sample_d_keeps_even_points_even() {
 
 #[test]
 fn sample_vndf_keeps_even_points_even() {
-    for profile in [VisibleProfile::Ggx, VisibleProfile::Beckmann] {
+    for profile in [Distribution::GGX, Distribution::BECKMANN] {
         for degrees in [0.0, 60.0, 89.5, 100.0] {
-            let case = visible::Case::new::<f64>(profile, Shape::Moved(0.6, SKEW), degrees, 11);
+            let case = visible::Case::new::<f64>(profile, MapSpec::Moved(0.6, SKEW), degrees, 11);
             check(&case.label, LARGEST_RATIO, &|points| case.outcome(EFFORT, points));
         }
-        let case = visible::Case::new::<f32>(profile, Shape::Isotropic(0.01), 60.0, 12);
+        let case = visible::Case::new::<f32>(profile, MapSpec::Isotropic(0.01), 60.0, 12);
         check(&case.label, LARGEST_RATIO, &|points| case.outcome(EFFORT, points));
     }
 }
@@ -77,7 +75,7 @@ fn sample_vndf_keeps_even_points_even() {
 fn sample_vndf_of_gtr_keeps_even_points_even() {
     for gamma in [0.7, 1.5, 3.4] {
         for degrees in [0.0, 60.0, 89.5, 100.0] {
-            let case = gtr_visible::Case::new::<f64>(0.05, gamma, Shape::Moved(0.9, SKEW), degrees, 11);
+            let case = gtr_visible::Case::new::<f64>(0.05, gamma, MapSpec::Moved(0.9, SKEW), degrees, 11);
             check(&case.label, LARGEST_RATIO_OF_COMPONENTS, &|points| case.outcome(EFFORT, points));
         }
     }

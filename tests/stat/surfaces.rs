@@ -8,10 +8,11 @@ use microsurface::profile::{SampleProfile, SampleVisibleProfile};
 use microsurface::{AxisAligned, Isotropic, Linear, Microsurface, Ndf, Real, SampleNdf, SampleVndf};
 
 use crate::chart::Inverse;
+use crate::rows::{Distribution, Visitor};
 
 /// The map of a surface, one variant for each way to make it.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Shape {
+pub(crate) enum MapSpec {
     /// α.
     Isotropic(f64),
     /// αx, αy.
@@ -27,7 +28,7 @@ pub(crate) const SKEW: [[f64; 2]; 2] = [[1.2, 0.9], [-0.2, 0.5]];
 /// Another, of negative determinant.
 pub(crate) const MIRROR: [[f64; 2]; 2] = [[0.4, 1.1], [1.3, -0.6]];
 
-impl Shape {
+impl MapSpec {
     /// R = M⁻¹, computed here from the definition of each.
     pub(crate) fn inverse(self) -> Inverse {
         Inverse(match self {
@@ -168,20 +169,20 @@ macro_rules! with_map {
     ($t:ty, $profile:expr, $shape:expr, $surface:ident => $result:expr) => {{
         let lit = <$t as Real>::lit;
         match $shape {
-            Shape::Isotropic(alpha) => {
+            MapSpec::Isotropic(alpha) => {
                 let $surface = Microsurface::new($profile, Isotropic::new(lit(alpha)).unwrap());
                 $result
             }
-            Shape::Axes(x, y) => {
+            MapSpec::Axes(x, y) => {
                 let $surface = Microsurface::new($profile, AxisAligned::new(lit(x), lit(y)).unwrap());
                 $result
             }
-            Shape::Matrix(x, y, angle) => {
+            MapSpec::Matrix(x, y, angle) => {
                 let matrix = RoughnessMatrix::rotated(lit(x), lit(y), lit(angle)).unwrap();
                 let $surface = Microsurface::new($profile, Linear::from(matrix));
                 $result
             }
-            Shape::Moved(alpha, [[a, b], [c, d]]) => {
+            MapSpec::Moved(alpha, [[a, b], [c, d]]) => {
                 let surface = Microsurface::new($profile, Isotropic::new(lit(alpha)).unwrap());
                 let columns = [[a, c], [b, d]].map(|column| column.map(lit));
                 let $surface = surface.transformed(<$t as Real>::matrix(columns)).unwrap();
@@ -191,46 +192,120 @@ macro_rules! with_map {
     }};
 }
 
-/// The surface of `profile` under `shape`.
-pub(crate) fn surface<T: Real, P: SampleProfile<T> + 'static>(profile: P, shape: Shape) -> Box<dyn Surface> {
-    with_map!(T, profile, shape, surface => Box::new(surface))
+/// What is made of the surface of a profile.
+struct Made<R: Recipe>(R, MapSpec);
+
+/// What is made of a surface: the surface itself, or a BRDF on it.
+trait Recipe {
+    type Made;
+    fn make<N: SampleNdf<Scalar: Spectrum<Scalar = N::Scalar>> + 'static>(self, surface: N) -> Self::Made;
+    /// The same of one whose visible normals can be drawn.
+    fn make_visible<N>(self, surface: N) -> Self::Made
+    where
+        N: SampleNdf<Scalar: Spectrum<Scalar = N::Scalar>> + SampleVndf + 'static;
 }
 
-/// The same of a profile whose visible normals are drawn.
-pub(crate) fn visible<T, P>(profile: P, shape: Shape) -> Box<dyn Visible>
-where
-    T: Real,
-    P: SampleVisibleProfile<T> + SampleProfile<T> + 'static,
-{
-    with_map!(T, profile, shape, surface => Box::new(surface))
+impl<T: Real + Spectrum<Scalar = T>, R: Recipe> Visitor<T> for Made<R> {
+    type Output = R::Made;
+
+    fn visible<P: SampleVisibleProfile<T> + SampleProfile<T> + 'static>(self, profile: P) -> R::Made {
+        with_map!(T, profile, self.1, surface => self.0.make_visible(surface))
+    }
+
+    fn all_normals<P: SampleProfile<T> + 'static>(self, profile: P) -> R::Made {
+        with_map!(T, profile, self.1, surface => self.0.make(surface))
+    }
 }
 
-/// The BRDF sampled by its visible normals.
-pub(crate) fn by_visible_normals<T, P>(profile: P, shape: Shape) -> Box<dyn Conductor>
-where
-    T: Real + Spectrum<Scalar = T>,
-    P: SampleVisibleProfile<T> + 'static,
-{
-    with_map!(T, profile, shape, surface => Box::new(RoughConductor::new(surface, Perfect::new())))
+/// The surface, if all its normals are drawn.
+struct Itself;
+
+impl Recipe for Itself {
+    type Made = Box<dyn Surface>;
+    fn make<N: SampleNdf + 'static>(self, surface: N) -> Self::Made {
+        Box::new(surface)
+    }
+    fn make_visible<N: SampleNdf + SampleVndf + 'static>(self, surface: N) -> Self::Made {
+        Box::new(surface)
+    }
 }
 
-/// The BRDF sampled by all normals.
-pub(crate) fn by_all_normals<T, P>(profile: P, shape: Shape) -> Box<dyn Conductor>
-where
-    T: Real + Spectrum<Scalar = T>,
-    P: SampleProfile<T> + 'static,
-{
-    with_map!(T, profile, shape, surface =>
-        Box::new(RoughConductor::new(surface, Perfect::new()).sampled_by(AllNormals)))
+/// The surface, if its visible normals are drawn.
+struct ItselfVisible;
+
+impl Recipe for ItselfVisible {
+    type Made = Option<Box<dyn Visible>>;
+    fn make<N: SampleNdf + 'static>(self, _: N) -> Self::Made {
+        None
+    }
+    fn make_visible<N: SampleNdf + SampleVndf + 'static>(self, surface: N) -> Self::Made {
+        Some(Box::new(surface))
+    }
 }
 
-/// The BRDF sampled by uniform directions with the given probability, and otherwise by all normals.
-pub(crate) fn by_mixture<T, P>(profile: P, shape: Shape, probability: f64) -> Box<dyn Conductor>
+/// Which normals a BRDF samples.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Normals {
+    Visible,
+    All,
+    /// Uniform directions with this probability, else all normals.
+    Mixed(f64),
+}
+
+impl Recipe for Normals {
+    type Made = Option<Box<dyn Conductor>>;
+    fn make<N: SampleNdf<Scalar: Spectrum<Scalar = N::Scalar>> + 'static>(self, surface: N) -> Self::Made {
+        let brdf = RoughConductor::new(surface, Perfect::new());
+        Some(match self {
+            Self::Visible => return None,
+            Self::All => Box::new(brdf.sampled_by(AllNormals)),
+            Self::Mixed(p) => {
+                let p = N::Scalar::lit(p);
+                Box::new(brdf.sampled_by(UniformMixture::new(AllNormals, p).expect("a probability")))
+            }
+        })
+    }
+    fn make_visible<N>(self, surface: N) -> Self::Made
+    where
+        N: SampleNdf<Scalar: Spectrum<Scalar = N::Scalar>> + SampleVndf + 'static,
+    {
+        if self == Self::Visible {
+            Some(Box::new(RoughConductor::new(surface, Perfect::new())))
+        } else {
+            self.make(surface)
+        }
+    }
+}
+
+/// f32 and f64, which are their own spectra.
+pub(crate) trait Scalar: Real + Spectrum<Scalar = Self> {}
+impl<T: Real + Spectrum<Scalar = T>> Scalar for T {}
+
+/// The surface of a distribution under a map.
+pub(crate) fn surface<T: Scalar>(distribution: Distribution, map: MapSpec) -> Box<dyn Surface> {
+    distribution.visit::<T, _>(Made(Itself, map)).expect("within the range")
+}
+
+/// The same of one whose visible normals are drawn.
+pub(crate) fn visible<T: Scalar>(distribution: Distribution, map: MapSpec) -> Box<dyn Visible> {
+    let surface = distribution.visit::<T, _>(Made(ItselfVisible, map)).expect("within the range");
+    surface.expect("a distribution whose visible normals can be drawn")
+}
+
+/// The BRDF of reflectance 1, sampled by these normals.
+pub(crate) fn conductor<T: Scalar>(
+    distribution: Distribution,
+    map: MapSpec,
+    normals: Normals,
+) -> Box<dyn Conductor> {
+    let brdf = distribution.visit::<T, _>(Made(normals, map)).expect("within the range");
+    brdf.expect("a distribution whose normals can be drawn so")
+}
+
+/// The surface of a profile that is none of the rows.
+pub(crate) fn visible_of_profile<P>(profile: P, map: MapSpec) -> Box<dyn Visible>
 where
-    T: Real + Spectrum<Scalar = T>,
-    P: SampleProfile<T> + 'static,
+    P: SampleVisibleProfile<f64> + SampleProfile<f64> + 'static,
 {
-    let mixture = UniformMixture::new(AllNormals, T::lit(probability)).expect("a probability");
-    with_map!(T, profile, shape, surface =>
-        Box::new(RoughConductor::new(surface, Perfect::new()).sampled_by(mixture)))
+    with_map!(f64, profile, map, surface => Box::new(surface))
 }

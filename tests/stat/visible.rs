@@ -1,16 +1,13 @@
 //! Visible normals: `sample_vndf` against `vndf`, above and below the horizon.
 
-use microsurface::beckmann::BeckmannTo1e6;
-use microsurface::profile::{SampleProfile, SampleVisibleProfile};
-use microsurface::{Beckmann, Ggx, Real};
-
 use crate::chart::{Cap, Chart, Inverse, View, VisibleProfile};
 use crate::chi_square::{Effort, Outcome, Subject, test};
 use crate::family::{Family, assert_impossible, assert_rejected};
 use crate::ks;
 use crate::normals::{WIDTHS, shapes};
 use crate::points::{Points, Random};
-use crate::surfaces::{SKEW, Shape, Visible, visible};
+use crate::rows::{Distribution, Row};
+use crate::surfaces::{MapSpec, SKEW, Scalar, Visible, visible};
 
 /// Degrees from the zenith; from below the horizon the steep facets are seen.
 pub(crate) const ANGLES: [f64; 7] = [0.0, 30.0, 60.0, 85.0, 89.5, 100.0, 150.0];
@@ -26,20 +23,12 @@ pub(crate) struct Case {
 
 impl Case {
     /// The azimuth of the view is drawn from `seed`.
-    pub(crate) fn new<T: Real>(profile: VisibleProfile, shape: Shape, degrees: f64, seed: u64) -> Self {
-        let surface = match profile {
-            VisibleProfile::Ggx => build::<T, _>(Ggx, shape),
-            VisibleProfile::Beckmann => build::<T, _>(Beckmann, shape),
-        };
-        Self::of(surface, profile, shape, degrees, seed)
-    }
-
-    /// The same of another sampling of a profile.
-    fn of(surface: Box<dyn Visible>, profile: VisibleProfile, shape: Shape, degrees: f64, seed: u64) -> Self {
+    pub(crate) fn new<T: Scalar>(distribution: Distribution, map: MapSpec, degrees: f64, seed: u64) -> Self {
+        let surface = visible::<T>(distribution, map);
         let scalar = if surface.bits() == 24 { 32 } else { 64 };
-        let label = format!("{profile:?} {shape:?} f{scalar} at {degrees} deg");
+        let label = format!("{distribution:?} {map:?} f{scalar} at {degrees} deg");
         let w = Random::new(seed, 24).direction(degrees);
-        Self { label, surface, profile, inverse: shape.inverse(), w }
+        Self { label, surface, profile: VisibleProfile::of(distribution), inverse: map.inverse(), w }
     }
 
     pub(crate) fn view(&self) -> View {
@@ -79,38 +68,33 @@ impl Case {
     }
 }
 
-fn build<T, P>(profile: P, shape: Shape) -> Box<dyn Visible>
-where
-    T: Real,
-    P: SampleVisibleProfile<T> + SampleProfile<T> + 'static,
-{
-    visible::<T, P>(profile, shape)
+/// The distributions without a width of their own, but for other samplings of them.
+fn distributions() -> impl Iterator<Item = Distribution> {
+    Row::with_own_density().filter(|row| !row.columns().own_width).flat_map(|row| row.of_width(1.0))
 }
 
-/// Both profiles under these shapes at every angle.
-fn cases<T: Real>(shapes: impl Iterator<Item = Shape>, angles: &[f64]) -> Vec<Case> {
+/// Every distribution under these maps at every angle.
+fn cases<T: Scalar>(shapes: impl Iterator<Item = MapSpec>, angles: &[f64]) -> Vec<Case> {
     cases_in_turn::<T>(shapes, angles, 1)
 }
 
 /// The same with every `stride`-th angle, another one first for each shape.
-fn cases_in_turn<T: Real>(shapes: impl Iterator<Item = Shape>, angles: &[f64], stride: usize) -> Vec<Case> {
+fn cases_in_turn<T: Scalar>(shapes: impl Iterator<Item = MapSpec>, angles: &[f64], stride: usize) -> Vec<Case> {
     let mut result = Vec::new();
     for ((shape, seed), turn) in shapes.zip((1..).step_by(100)).zip((0..stride).cycle()) {
         for (&degrees, seed) in angles[turn..].iter().step_by(stride).zip(seed..) {
-            for profile in [VisibleProfile::Ggx, VisibleProfile::Beckmann] {
-                result.push(Case::new::<T>(profile, shape, degrees, seed));
-            }
+            result.extend(distributions().map(|d| Case::new::<T>(d, shape, degrees, seed)));
         }
     }
     result.retain(Case::is_representable);
     result
 }
 
-fn isotropic(widths: &[f64]) -> impl Iterator<Item = Shape> {
-    widths.iter().map(|&alpha| Shape::Isotropic(alpha))
+fn isotropic(widths: &[f64]) -> impl Iterator<Item = MapSpec> {
+    widths.iter().map(|&alpha| MapSpec::Isotropic(alpha))
 }
 
-fn other_shapes(widths: &[f64]) -> impl Iterator<Item = Shape> {
+fn other_shapes(widths: &[f64]) -> impl Iterator<Item = MapSpec> {
     widths.iter().flat_map(|&alpha| shapes(alpha))
 }
 
@@ -140,17 +124,16 @@ fn sample_vndf_in_single_precision_has_its_density() {
     run(Family::new("sample_vndf, f32"), &all, Effort::QUICK);
 }
 
-/// The quicker sampling of Beckmann, in f32.
-fn cases_to_1e_6() -> Vec<Case> {
+/// Other samplings of a distribution, in f32.
+fn other_samplings() -> Vec<Case> {
     let mut result = Vec::new();
-    for (shape, seed) in
-        isotropic(&[1e-4, 0.01, 0.5, 2.5]).chain(other_shapes(&[0.2])).zip((7..).step_by(100))
-    {
-        for (&degrees, seed) in ANGLES.iter().zip(seed..).skip((seed / 100 % 2) as usize).step_by(2) {
-            let surface = build::<f32, _>(BeckmannTo1e6, shape);
-            let mut case = Case::of(surface, VisibleProfile::Beckmann, shape, degrees, seed);
-            case.label += " to 1e-6";
-            result.push(case);
+    let rows = Row::ALL.iter().filter(|row| row.columns().sampling_of.is_some());
+    for distribution in rows.flat_map(|row| row.of_width(1.0)) {
+        let maps = isotropic(&[1e-4, 0.01, 0.5, 2.5]).chain(other_shapes(&[0.2]));
+        for (map, seed) in maps.zip((7..).step_by(100)) {
+            for (&degrees, seed) in ANGLES.iter().zip(seed..).skip((seed / 100 % 2) as usize).step_by(2) {
+                result.push(Case::new::<f32>(distribution, map, degrees, seed));
+            }
         }
     }
     result.retain(Case::is_representable);
@@ -158,8 +141,8 @@ fn cases_to_1e_6() -> Vec<Case> {
 }
 
 #[test]
-fn sample_vndf_to_1e_6_has_its_density() {
-    run(Family::new("sample_vndf to 1e-6"), &cases_to_1e_6(), Effort::QUICK);
+fn other_samplings_of_visible_normals_have_their_density() {
+    run(Family::new("other samplings of visible normals"), &other_samplings(), Effort::QUICK);
 }
 
 /// The slopes along and across the view against their closed forms; for GGX height and azimuth on
@@ -169,7 +152,7 @@ fn marginals_of_sample_vndf_have_their_closed_forms() {
     let mut all = cases::<f64>(isotropic(&[1e-4, 0.1, 0.9]), &ANGLES);
     all.extend(cases::<f64>(other_shapes(&[0.3]), &[60.0, 89.5, 100.0]));
     all.extend(cases::<f32>(other_shapes(&[0.1]), &[30.0, 85.0]));
-    all.extend(cases_to_1e_6());
+    all.extend(other_samplings());
     let mut family = Family::new("marginals of sample_vndf");
     for (case, seed) in all.iter().zip(20_000..) {
         let names = ["along the view", "across it", "height on the cap", "azimuth on the cap"];
@@ -199,15 +182,15 @@ fn marginal_p_values(case: &Case, inverse: Inverse, samples: usize, seed: u64) -
 #[test]
 fn wrong_densities_of_visible_normals_are_rejected() {
     let effort = Effort::QUICK;
-    for profile in [VisibleProfile::Ggx, VisibleProfile::Beckmann] {
+    for profile in [Distribution::GGX, Distribution::BECKMANN] {
         let make = |shape| Case::new::<f64>(profile, shape, 60.0, 3);
-        let reject = |shape: Shape, wrong: Shape, why: &str| {
+        let reject = |shape: MapSpec, wrong: MapSpec, why: &str| {
             let (case, other) = (make(shape), make(wrong));
             let density = |m| other.surface.vndf(case.w, m);
             assert_rejected(&case.against(&density, why, effort, &mut Random::new(1, 53)));
         };
-        let (axes, skew) = (Shape::Axes(0.3, 0.4), Shape::Moved(0.2, SKEW));
-        for shape in [Shape::Isotropic(0.01), axes, skew] {
+        let (axes, skew) = (MapSpec::Axes(0.3, 0.4), MapSpec::Moved(0.2, SKEW));
+        for shape in [MapSpec::Isotropic(0.01), axes, skew] {
             reject(shape, shape.scaled(1.03), ", alpha off by 3 %");
         }
         reject(axes, axes.swapped(), ", axes swapped");
@@ -244,15 +227,14 @@ impl Points for Warped {
 
 #[test]
 fn wrong_marginals_of_visible_normals_are_rejected() {
-    for profile in [VisibleProfile::Ggx, VisibleProfile::Beckmann] {
-        let shape = Shape::Isotropic(0.515);
-        let mut cases = vec![Case::new::<f64>(profile, shape, 60.0, 3)];
-        if profile == VisibleProfile::Beckmann {
-            let surface = build::<f32, _>(BeckmannTo1e6, shape);
-            cases.push(Case::of(surface, profile, shape, 60.0, 4));
+    for distribution in [Distribution::GGX, Distribution::BECKMANN] {
+        let map = MapSpec::Isotropic(0.515);
+        let mut cases = vec![Case::new::<f64>(distribution, map, 60.0, 3)];
+        if distribution == Distribution::BECKMANN {
+            cases.push(Case::new::<f32>(Row::BeckmannTo1e6.with(1.0, f64::INFINITY), map, 60.0, 4));
         }
         for case in cases {
-            let p = marginal_p_values(&case, Shape::Isotropic(0.5).inverse(), 300_000, 1);
+            let p = marginal_p_values(&case, MapSpec::Isotropic(0.5).inverse(), 300_000, 1);
             eprintln!("negative control {}, alpha off by 3 %: p = {p:?}", case.label);
             // The cap of a wrong α is tilted: its height and azimuth are not uniform either.
             assert!(p.iter().all(|&p| p < 1e-5), "{}: {p:?}", case.label);
@@ -265,11 +247,11 @@ fn wrong_marginals_of_visible_normals_are_rejected() {
 fn long_sample_vndf() {
     let mut random = Random::new(77, 53);
     // 24 maps at random: entries of M in (−1, 1), widths over four decades.
-    let maps: Vec<Shape> = (0..24)
+    let maps: Vec<MapSpec> = (0..24)
         .map(|_| {
             let mut entry = || 2.0 * random.uniform() - 1.0;
             let matrix = [[entry(), entry()], [entry(), entry()]];
-            Shape::Moved(10_f64.powf(-2.0 - 2.0 * entry()), matrix)
+            MapSpec::Moved(10_f64.powf(-2.0 - 2.0 * entry()), matrix)
         })
         .collect();
     let mut all = cases::<f64>(maps.iter().copied(), &ANGLES);
@@ -280,6 +262,6 @@ fn long_sample_vndf() {
 
 #[test]
 #[ignore = "long: minutes; see main.rs"]
-fn long_sample_vndf_to_1e_6() {
-    run(Family::long("long sample_vndf to 1e-6"), &cases_to_1e_6(), Effort::LONG);
+fn long_other_samplings_of_visible_normals() {
+    run(Family::long("long other samplings of visible normals"), &other_samplings(), Effort::LONG);
 }

@@ -3,6 +3,7 @@
 use core::f64::consts::PI;
 
 use super::{Chart, Inverse};
+use crate::rows::Distribution;
 
 /// The distribution of the squared slope x = tan²θ of a profile, of density π P22.
 #[derive(Debug, Clone, Copy)]
@@ -16,9 +17,15 @@ pub(crate) enum Radial {
 }
 
 impl Radial {
-    /// GTR, which is GGX where α = 1 makes it independent of γ.
-    pub(crate) fn gtr(alpha: f64, gamma: f64) -> Self {
-        if alpha > 1.0 - 1e-6 { Self::Ggx } else { Self::Gtr { alpha, gamma } }
+    /// The slopes of a distribution. GTR is GGX where α = 1 makes it independent of γ.
+    pub(crate) fn of(Distribution { alpha, gamma, .. }: Distribution) -> Self {
+        if gamma == f64::INFINITY {
+            Self::Beckmann
+        } else if alpha > 1.0 - 1e-6 {
+            Self::Ggx
+        } else {
+            Self::Gtr { alpha, gamma }
+        }
     }
 
     fn cdf(self, x: f64) -> f64 {

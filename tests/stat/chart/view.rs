@@ -3,6 +3,7 @@
 use core::f64::consts::PI;
 
 use super::{Chart, Inverse, root};
+use crate::rows::Distribution;
 use crate::special::{erfc, erfcx};
 
 /// The two profiles whose visible slopes separate.
@@ -10,6 +11,13 @@ use crate::special::{erfc, erfcx};
 pub(crate) enum VisibleProfile {
     Ggx,
     Beckmann,
+}
+
+impl VisibleProfile {
+    /// That of a distribution without a width of its own.
+    pub(crate) fn of(distribution: Distribution) -> Self {
+        if distribution.gamma == f64::INFINITY { Self::Beckmann } else { Self::Ggx }
+    }
 }
 
 /// The chart of the normals visible from w.
