@@ -10,8 +10,8 @@ use crate::textbook::{Anisotropic, Elementary, Width, beckmann, ggx};
 struct Density<'a, 'b>(&'a mut BenchmarkGroup<'b, WallTime>);
 
 impl<T: Elementary> Question<T> for Density<'_, '_> {
-    fn ask<N: SampleNdf<Scalar = T> + Copy>(&mut self, profile: &str, map: &str, materials: &[N]) {
-        calls(self.0, (profile, map), materials, &normals(materials), N::d);
+    fn ask<N: SampleNdf<Scalar = T> + Copy>(&mut self, id: (&str, &str), materials: &[N]) {
+        calls(self.0, id, materials, &normals(materials), N::d);
     }
 }
 

@@ -4,11 +4,12 @@ use core::hint::black_box;
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, Throughput};
-use microsurface::Gtr;
-use microsurface::profile::{Profile, SampleProfile};
-use microsurface::{Beckmann, Ggx, Isotropic, Microsurface, Real, SampleNdf};
+use microsurface::profile::{Profile, SampleProfile, SampleVisibleProfile};
+use microsurface::{Error, Isotropic, Microsurface, Real, SampleNdf, SampleVndf};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
+
+use crate::rows::{Columns, Row, Visitor};
 
 /// Arguments per iteration of a scalar question.
 pub(crate) const CALLS: usize = 4096;
@@ -58,26 +59,71 @@ pub(crate) fn alphas<T: Real>() -> Vec<T> {
 
 /// What is asked about every distribution under every map.
 pub(crate) trait Question<T: Real> {
-    fn ask<N: SampleNdf<Scalar = T> + Copy>(&mut self, profile: &str, map: &str, materials: &[N]);
+    fn ask<N: SampleNdf<Scalar = T> + Copy>(&mut self, id: (&str, &str), materials: &[N]);
+
+    /// The same of one whose visible normals can be drawn.
+    fn ask_visible<N: SampleNdf<Scalar = T> + SampleVndf + Copy>(
+        &mut self,
+        id: (&str, &str),
+        materials: &[N],
+    ) {
+        self.ask(id, materials);
+    }
 }
 
-/// Asks about every distribution under every map.
+/// The exponent of the tail, where there is a choice.
+const GAMMA: f64 = 1.5;
+
+/// Asks about every distribution that stands for all, under every map.
 pub(crate) fn each_surface<T: Real>(question: &mut impl Question<T>) {
-    each_map(question, "ggx", |alpha| Ggx::isotropic(alpha).ok());
-    each_map(question, "beckmann", |alpha| Beckmann::isotropic(alpha).ok());
-    each_map(question, "gtr-closed-1", |alpha| Gtr::closed::<1>(alpha).ok());
-    each_map(question, "gtr-closed-3", |alpha| Gtr::closed::<3>(alpha).ok());
-    each_map(question, "gtr-spline-1.5", |alpha| Gtr::spline(alpha, T::lit(1.5)).ok());
+    for &row in Row::SOME {
+        row.visit_some(Asked { row, question: &mut *question });
+    }
 }
 
-fn each_map<T: Real, P: SampleProfile<T>>(
-    question: &mut impl Question<T>,
-    profile: &str,
-    surface: impl Fn(T) -> Option<Microsurface<P, Isotropic<T>>>,
-) {
-    question.ask(profile, "isotropic", &materials(&surface));
-    question.ask(profile, "axis-aligned", &stretched(&surface));
-    question.ask(profile, "general", &transformed(&surface));
+/// A row that a question is asked about.
+struct Asked<'a, Q> {
+    row: Row,
+    question: &'a mut Q,
+}
+
+impl<Q> Asked<'_, Q> {
+    fn name(&self) -> String {
+        let Columns { name, range: [low, high], .. } = self.row.columns();
+        if low < high { format!("{name}-{GAMMA}") } else { name.into() }
+    }
+}
+
+/// The isotropic surface of a row and a width.
+fn surface<T: Real, P: Profile<T>>(
+    row: Row,
+    profile: impl Fn(T, T) -> Result<P, Error>,
+) -> impl Fn(T) -> Option<Microsurface<P, Isotropic<T>>> {
+    move |alpha| {
+        let map = Isotropic::new(if row.columns().own_width { T::ONE } else { alpha }).ok()?;
+        Some(Microsurface::new(profile(alpha, T::lit(GAMMA)).ok()?, map))
+    }
+}
+
+impl<T: Real, Q: Question<T>> Visitor<T> for Asked<'_, Q> {
+    type Output = ();
+
+    fn visible<P>(self, profile: impl Fn(T, T) -> Result<P, Error>)
+    where
+        P: SampleProfile<T> + SampleVisibleProfile<T>,
+    {
+        let (name, surface) = (self.name(), surface(self.row, profile));
+        self.question.ask_visible((&name, "isotropic"), &materials(&surface));
+        self.question.ask_visible((&name, "axis-aligned"), &stretched(&surface));
+        self.question.ask_visible((&name, "general"), &transformed(&surface));
+    }
+
+    fn all_normals<P: SampleProfile<T>>(self, profile: impl Fn(T, T) -> Result<P, Error>) {
+        let (name, surface) = (self.name(), surface(self.row, profile));
+        self.question.ask((&name, "isotropic"), &materials(&surface));
+        self.question.ask((&name, "axis-aligned"), &stretched(&surface));
+        self.question.ask((&name, "general"), &transformed(&surface));
+    }
 }
 
 pub(crate) fn materials<T: Real, N>(surface: impl Fn(T) -> Option<N>) -> Vec<N> {

@@ -23,6 +23,9 @@ mod filter;
 mod input;
 mod mask;
 mod reflection;
+#[path = "../../tests/surfaces/mod.rs"]
+#[expect(dead_code, reason = "not every crate reads every column")]
+mod rows;
 mod scaling;
 mod textbook;
 mod visible_normals;

@@ -15,40 +15,40 @@ struct Lambda<'a, 'b, T: Real>(&'a mut BenchmarkGroup<'b, WallTime>, &'a [T::Vec
 struct G1<'a, 'b, T: Real>(&'a mut BenchmarkGroup<'b, WallTime>, &'a [T::Vec3]);
 
 impl<T: Real> Question<T> for Sigma<'_, '_, T> {
-    fn ask<N: SampleNdf<Scalar = T> + Copy>(&mut self, profile: &str, map: &str, materials: &[N]) {
-        calls(self.0, (profile, map), materials, self.1, N::sigma);
+    fn ask<N: SampleNdf<Scalar = T> + Copy>(&mut self, id: (&str, &str), materials: &[N]) {
+        calls(self.0, id, materials, self.1, N::sigma);
     }
 }
 
 impl<T: Real> Question<T> for Lambda<'_, '_, T> {
-    fn ask<N: SampleNdf<Scalar = T> + Copy>(&mut self, profile: &str, map: &str, materials: &[N]) {
-        calls(self.0, (profile, map), materials, self.1, N::lambda);
+    fn ask<N: SampleNdf<Scalar = T> + Copy>(&mut self, id: (&str, &str), materials: &[N]) {
+        calls(self.0, id, materials, self.1, N::lambda);
     }
 }
 
 impl<T: Real> Question<T> for G1<'_, '_, T> {
-    fn ask<N: SampleNdf<Scalar = T> + Copy>(&mut self, profile: &str, map: &str, materials: &[N]) {
+    fn ask<N: SampleNdf<Scalar = T> + Copy>(&mut self, id: (&str, &str), materials: &[N]) {
         let pairs: Vec<_> = self.1.iter().copied().zip(normals(materials)).collect();
-        calls(self.0, (profile, map), materials, &pairs, |surface, (w, wm)| surface.g1(w, wm));
+        calls(self.0, id, materials, &pairs, |surface, (w, wm)| surface.g1(w, wm));
     }
 }
 
-/// The masks of GTR beside the spline and the closed forms that every map is asked about,
-/// isotropic.
+/// The masks of GTR beside those that every map is asked about, isotropic.
 fn each_gtr<T: Real>(question: &mut impl Question<T>) {
-    for (gamma, [four, eight, twelve]) in [
-        (1.5, ["gtr-4-nodes-1.5", "gtr-8-nodes-1.5", "gtr-12-nodes-1.5"]),
-        (2.5, ["gtr-4-nodes-2.5", "gtr-8-nodes-2.5", "gtr-12-nodes-2.5"]),
-        (3.5, ["gtr-4-nodes-3.5", "gtr-8-nodes-3.5", "gtr-12-nodes-3.5"]),
+    for (gamma, [four, twelve]) in [
+        (1.5, ["gtr-4-nodes-1.5", "gtr-12-nodes-1.5"]),
+        (2.5, ["gtr-4-nodes-2.5", "gtr-12-nodes-2.5"]),
+        (3.5, ["gtr-4-nodes-3.5", "gtr-12-nodes-3.5"]),
     ] {
         let gamma = T::lit(gamma);
-        question.ask(four, "isotropic", &materials(|alpha| Gtr::with_nodes::<4>(alpha, gamma).ok()));
-        question.ask(eight, "isotropic", &materials(|alpha| Gtr::with_nodes::<8>(alpha, gamma).ok()));
-        question.ask(twelve, "isotropic", &materials(|alpha| Gtr::with_nodes::<12>(alpha, gamma).ok()));
+        question.ask((four, "isotropic"), &materials(|alpha| Gtr::with_nodes::<4>(alpha, gamma).ok()));
+        question.ask((twelve, "isotropic"), &materials(|alpha| Gtr::with_nodes::<12>(alpha, gamma).ok()));
     }
-    let heavy = materials(|alpha| Gtr::heavy_tailed::<8>(alpha, T::lit(1.5)).ok());
-    question.ask("gtr-heavy-8-nodes-1.5", "isotropic", &heavy);
-    question.ask("gtr-closed-6", "isotropic", &materials(|alpha| Gtr::closed::<6>(alpha).ok()));
+    for (gamma, eight) in [(2.5, "gtr-8-nodes-2.5"), (3.5, "gtr-8-nodes-3.5")] {
+        let materials = materials(|alpha| Gtr::isotropic(alpha, T::lit(gamma)).ok());
+        question.ask((eight, "isotropic"), &materials);
+    }
+    question.ask(("gtr-closed-6", "isotropic"), &materials(|alpha| Gtr::closed::<6>(alpha).ok()));
 }
 
 pub(crate) fn bench(criterion: &mut Criterion) {

@@ -1,20 +1,16 @@
 //! The cost of single reflection: evaluation, density and sampling of a rough conductor with a
 //! scalar Schlick term?
 //!
-//! GGX and Beckmann are sampled by visible normals, GTR by all normals, with or without uniform
+//! Sampled are visible normals where they can be drawn; else all normals, with or without uniform
 //! directions among them.
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion};
 use microsurface::bsdf::{AllNormals, NormalSampling, RoughConductor, UniformMixture, VisibleNormals};
 use microsurface::fresnel::{Schlick, Spectrum};
-use microsurface::profile::Profile;
-use microsurface::{AxisAligned, Beckmann, Ggx, Gtr, Isotropic, Linear, Microsurface, Ndf, Real, SampleNdf};
+use microsurface::{Ndf, Real, SampleNdf, SampleVndf};
 
-use crate::input::{
-    CALLS, Question, alphas, calls, directions, each_surface, generator, group, materials, stretched,
-    transformed, uniform,
-};
+use crate::input::{CALLS, Question, alphas, calls, directions, each_surface, generator, group, uniform};
 use crate::textbook::{Anisotropic, Elementary, Width, beckmann, ggx};
 
 /// Reflectance at normal incidence.
@@ -41,10 +37,6 @@ fn scalar<T: Elementary>(criterion: &mut Criterion) {
 
     let mut eval = group::<T>(criterion, "reflection_eval");
     each_surface(&mut Eval::<T>(&mut eval, &pairs));
-    let heavy = materials(|alpha| Gtr::heavy_tailed::<8>(alpha, T::lit(1.5)).ok());
-    Eval::<T>(&mut eval, &pairs).ask("gtr-heavy-8-nodes-1.5", "isotropic", &heavy);
-    let any = materials(|alpha| Gtr::isotropic(alpha, T::lit(1.5)).ok());
-    Eval::<T>(&mut eval, &pairs).ask("gtr-8-nodes-1.5", "isotropic", &any);
     let arrays: Vec<([T; 3], [T; 3])> = pairs.iter().map(|&(wi, wo)| (wi.into(), wo.into())).collect();
     let widths: Vec<_> = alphas::<T>().into_iter().map(Width::new).collect();
     let width_pairs: Vec<_> = alphas::<T>().into_iter().map(Anisotropic::new).collect();
@@ -60,14 +52,12 @@ fn scalar<T: Elementary>(criterion: &mut Criterion) {
     eval.finish();
 
     let mut pdf = group::<T>(criterion, "reflection_pdf");
-    each_visible::<T>(|profile, map, surfaces| surfaces.pdf(&mut pdf, (profile, map), &pairs));
-    each_gtr::<T>(|profile, map, surfaces| surfaces.pdf(&mut pdf, (profile, map), &pairs));
+    each_surface(&mut Sampled(&mut pdf, Pdf::<T>(&pairs)));
     pdf.finish();
 
     let draw_arrays: Vec<([T; 3], [T; 2])> = draws.iter().map(|&(wo, u)| (wo.into(), u.into())).collect();
     let mut sample = group::<T>(criterion, "reflection_sample");
-    each_visible::<T>(|profile, map, surfaces| surfaces.sample(&mut sample, (profile, map), &draws));
-    each_gtr::<T>(|profile, map, surfaces| surfaces.sample(&mut sample, (profile, map), &draws));
+    each_surface(&mut Sampled(&mut sample, Sample::<T>(&draws)));
     calls(&mut sample, ("heitz2018-ggx", "axis-aligned"), &width_pairs, &draw_arrays, |&a, (wo, u)| {
         ggx::sampled_reflection_heitz2018(a, T::lit(F0), wo, u)
     });
@@ -77,9 +67,9 @@ fn scalar<T: Elementary>(criterion: &mut Criterion) {
 struct Eval<'a, 'b, T: Real>(&'a mut BenchmarkGroup<'b, WallTime>, &'a Pairs<T>);
 
 impl<T: Elementary> Question<T> for Eval<'_, '_, T> {
-    fn ask<N: SampleNdf<Scalar = T> + Copy>(&mut self, profile: &str, map: &str, materials: &[N]) {
+    fn ask<N: SampleNdf<Scalar = T> + Copy>(&mut self, id: (&str, &str), materials: &[N]) {
         let conductors = conductors(materials, VisibleNormals);
-        calls(self.0, (profile, map), &conductors, self.1, |brdf, (wi, wo)| brdf.eval(wi, wo));
+        calls(self.0, id, &conductors, self.1, |brdf, (wi, wo)| brdf.eval(wi, wo));
     }
 }
 
@@ -91,54 +81,65 @@ fn conductors<T: Spectrum<Scalar = T> + Real, N: Ndf<Scalar = T> + Copy, S: Copy
     surfaces.iter().map(|&surface| RoughConductor::new(surface, fresnel).sampled_by(sampling)).collect()
 }
 
-/// A question about a sampler, with the types of the surface and of the choice of normals
-/// hidden.
-trait Sampler<T: Real> {
-    fn pdf(&self, group: &mut BenchmarkGroup<'_, WallTime>, id: (&str, &str), pairs: &Pairs<T>);
-    fn sample(&self, group: &mut BenchmarkGroup<'_, WallTime>, id: (&str, &str), draws: &Draws<T>);
+/// What every sampling of a distribution is asked: visible normals where they can be drawn, else all
+/// of them, alone and among uniform directions.
+struct Sampled<'a, 'b, F>(&'a mut BenchmarkGroup<'b, WallTime>, F);
+
+/// A question about a sampler.
+trait Ask<T: Real> {
+    fn ask<N, S>(
+        &self,
+        group: &mut BenchmarkGroup<'_, WallTime>,
+        id: (&str, &str),
+        conductors: &[RoughConductor<N, Schlick<T>, S>],
+    ) where
+        N: Ndf<Scalar = T>,
+        S: NormalSampling<N>;
 }
 
-impl<T, N, S> Sampler<T> for Vec<RoughConductor<N, Schlick<T>, S>>
-where
-    T: Spectrum<Scalar = T> + Real,
-    N: Ndf<Scalar = T>,
-    S: NormalSampling<N>,
-{
-    fn pdf(&self, group: &mut BenchmarkGroup<'_, WallTime>, id: (&str, &str), pairs: &Pairs<T>) {
-        calls(group, id, self, pairs, |brdf, (wi, wo)| brdf.pdf(wi, wo));
+struct Pdf<'a, T: Real>(&'a Pairs<T>);
+struct Sample<'a, T: Real>(&'a Draws<T>);
+
+impl<T: Elementary> Ask<T> for Pdf<'_, T> {
+    fn ask<N, S>(
+        &self,
+        group: &mut BenchmarkGroup<'_, WallTime>,
+        id: (&str, &str),
+        conductors: &[RoughConductor<N, Schlick<T>, S>],
+    ) where
+        N: Ndf<Scalar = T>,
+        S: NormalSampling<N>,
+    {
+        calls(group, id, conductors, self.0, |brdf, (wi, wo)| brdf.pdf(wi, wo));
     }
-    fn sample(&self, group: &mut BenchmarkGroup<'_, WallTime>, id: (&str, &str), draws: &Draws<T>) {
-        calls(group, id, self, draws, |brdf, (wo, u)| brdf.sample(wo, u));
+}
+
+impl<T: Elementary> Ask<T> for Sample<'_, T> {
+    fn ask<N, S>(
+        &self,
+        group: &mut BenchmarkGroup<'_, WallTime>,
+        id: (&str, &str),
+        conductors: &[RoughConductor<N, Schlick<T>, S>],
+    ) where
+        N: Ndf<Scalar = T>,
+        S: NormalSampling<N>,
+    {
+        calls(group, id, conductors, self.0, |brdf, (wo, u)| brdf.sample(wo, u));
     }
 }
 
-/// The distributions with a sampler of visible normals, under every map.
-fn each_visible<T: Elementary>(mut ask: impl FnMut(&str, &str, &dyn Sampler<T>)) {
-    each_map("ggx", VisibleNormals, &mut ask, |alpha| Ggx::isotropic(alpha).ok());
-    each_map("beckmann", VisibleNormals, &mut ask, |alpha| Beckmann::isotropic(alpha).ok());
-}
+impl<T: Elementary, F: Ask<T>> Question<T> for Sampled<'_, '_, F> {
+    fn ask<N: SampleNdf<Scalar = T> + Copy>(&mut self, (name, map): (&str, &str), materials: &[N]) {
+        self.1.ask(self.0, (name, map), &conductors(materials, AllNormals));
+        let mixture = UniformMixture::new(AllNormals, T::lit(0.2)).expect("a probability");
+        self.1.ask(self.0, (&format!("{name}-mixture"), map), &conductors(materials, mixture));
+    }
 
-/// GTR, sampled by all normals and by a mixture, under every map.
-fn each_gtr<T: Elementary>(mut ask: impl FnMut(&str, &str, &dyn Sampler<T>)) {
-    each_map("gtr-closed-1", AllNormals, &mut ask, |alpha| Gtr::closed::<1>(alpha).ok());
-    each_map("gtr-closed-3", AllNormals, &mut ask, |alpha| Gtr::closed::<3>(alpha).ok());
-    each_map("gtr-spline-1.5", AllNormals, &mut ask, |alpha| Gtr::spline(alpha, T::lit(1.5)).ok());
-    let mixture = UniformMixture::new(AllNormals, T::lit(0.2)).expect("a probability");
-    each_map("gtr-spline-1.5-mixture", mixture, &mut ask, |alpha| Gtr::spline(alpha, T::lit(1.5)).ok());
-}
-
-fn each_map<T: Elementary, P: Profile<T>, S>(
-    profile: &str,
-    sampling: S,
-    ask: &mut impl FnMut(&str, &str, &dyn Sampler<T>),
-    surface: impl Fn(T) -> Option<Microsurface<P, Isotropic<T>>>,
-) where
-    S: Copy
-        + NormalSampling<Microsurface<P, Isotropic<T>>>
-        + NormalSampling<Microsurface<P, AxisAligned<T>>>
-        + NormalSampling<Microsurface<P, Linear<T>>>,
-{
-    ask(profile, "isotropic", &conductors(&materials(&surface), sampling));
-    ask(profile, "axis-aligned", &conductors(&stretched(&surface), sampling));
-    ask(profile, "general", &conductors(&transformed(&surface), sampling));
+    fn ask_visible<N: SampleNdf<Scalar = T> + SampleVndf + Copy>(
+        &mut self,
+        id: (&str, &str),
+        materials: &[N],
+    ) {
+        self.1.ask(self.0, id, &conductors(materials, VisibleNormals));
+    }
 }

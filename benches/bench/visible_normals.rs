@@ -3,11 +3,10 @@
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion};
 use microsurface::elementary::{erf, erf_inv};
-use microsurface::profile::SampleVisibleProfile;
-use microsurface::{Beckmann, Ggx, Gtr, Isotropic, Microsurface, Real, SampleVndf};
+use microsurface::{Gtr, Real, SampleNdf, SampleVndf};
 
 use crate::input::{
-    CALLS, alphas, calls, directions, generator, group, materials, stretched, transformed, uniform,
+    CALLS, Question, alphas, calls, directions, each_surface, generator, group, materials, uniform,
 };
 use crate::textbook::{Anisotropic, Elementary, Width, beckmann, ggx};
 
@@ -25,16 +24,11 @@ fn scalar<T: Elementary>(criterion: &mut Criterion) {
     let vectors: Vec<(T::Vec3, T::Vec2)> = arrays.iter().map(|&(w, u)| (w.into(), u.into())).collect();
     let mut group = group::<T>(criterion, "visible_normals");
 
-    each_map::<T, _>(&mut group, "ggx", &vectors, |alpha| Ggx::isotropic(alpha).ok());
-    each_map::<T, _>(&mut group, "beckmann", &vectors, |alpha| Beckmann::isotropic(alpha).ok());
-    for (gamma, name) in [(0.7, "gtr-0.7"), (1.5, "gtr-1.5"), (2.5, "gtr-2.5"), (3.4, "gtr-3.4")] {
+    each_surface(&mut Visible::<T>(&mut group, &vectors));
+    for (gamma, name) in [(0.7, "gtr-8-nodes-0.7"), (2.5, "gtr-8-nodes-2.5"), (3.4, "gtr-8-nodes-3.4")] {
         let surfaces = materials(|alpha| Gtr::isotropic(alpha, T::lit(gamma)).ok());
         calls(&mut group, (name, "isotropic"), &surfaces, &vectors, |s, (w, u)| s.sample_vndf(w, u));
     }
-    let closed = materials(|alpha| Gtr::<T, _>::closed::<1>(alpha).ok());
-    calls(&mut group, ("gtr-closed-1", "isotropic"), &closed, &vectors, |s, (w, u)| s.sample_vndf(w, u));
-    let closed = materials(|alpha| Gtr::<T, _>::closed::<3>(alpha).ok());
-    calls(&mut group, ("gtr-closed-3", "isotropic"), &closed, &vectors, |s, (w, u)| s.sample_vndf(w, u));
 
     let widths: Vec<_> = alphas::<T>().into_iter().map(Width::new).collect();
     let pairs: Vec<_> = alphas::<T>().into_iter().map(Anisotropic::new).collect();
@@ -53,13 +47,16 @@ fn scalar<T: Elementary>(criterion: &mut Criterion) {
     group.finish();
 }
 
-fn each_map<T: Real, P: SampleVisibleProfile<T>>(
-    group: &mut BenchmarkGroup<'_, WallTime>,
-    profile: &str,
-    arguments: &[(T::Vec3, T::Vec2)],
-    surface: impl Fn(T) -> Option<Microsurface<P, Isotropic<T>>>,
-) {
-    calls(group, (profile, "isotropic"), &materials(&surface), arguments, |s, (w, u)| s.sample_vndf(w, u));
-    calls(group, (profile, "axis-aligned"), &stretched(&surface), arguments, |s, (w, u)| s.sample_vndf(w, u));
-    calls(group, (profile, "general"), &transformed(&surface), arguments, |s, (w, u)| s.sample_vndf(w, u));
+struct Visible<'a, 'b, T: Real>(&'a mut BenchmarkGroup<'b, WallTime>, &'a [(T::Vec3, T::Vec2)]);
+
+impl<T: Real> Question<T> for Visible<'_, '_, T> {
+    fn ask<N: SampleNdf<Scalar = T> + Copy>(&mut self, _: (&str, &str), _: &[N]) {}
+
+    fn ask_visible<N: SampleNdf<Scalar = T> + SampleVndf + Copy>(
+        &mut self,
+        id: (&str, &str),
+        materials: &[N],
+    ) {
+        calls(self.0, id, materials, self.1, |surface, (w, u)| surface.sample_vndf(w, u));
+    }
 }

@@ -6,8 +6,12 @@
 #![expect(clippy::cast_precision_loss, reason = "counts and random bits become numbers")]
 #![expect(clippy::float_cmp, reason = "what was not written must be as it was")]
 
+#[path = "../surfaces/mod.rs"]
+#[expect(dead_code, reason = "not every crate reads every column")]
+mod rows;
 mod varied;
 
+use core::marker::PhantomData;
 use core::panic::AssertUnwindSafe;
 use std::panic::catch_unwind;
 
@@ -20,8 +24,12 @@ use microsurface::bsdf::{AllNormals, NormalSampling, RoughConductor, UniformMixt
 use microsurface::fresnel::{Conductor, Dielectric, Fresnel, Perfect, Schlick, Spectrum};
 use microsurface::glam::Vec3;
 use microsurface::ndf::Vec3 as Vec3Of;
+use microsurface::profile::{Profile, SampleProfile, SampleVisibleProfile};
 use microsurface::transform::Transformed;
-use microsurface::{Beckmann, Ggx, Gtr, Ndf, Real, RoughnessMatrix, SampleNdf, SampleVndf};
+use microsurface::{
+    AxisAligned, Beckmann, Error, Ggx, Gtr, Microsurface, Ndf, Real, RoughnessMatrix, SampleNdf, SampleVndf,
+};
+use rows::{Batched, Distribution, Row, Visitor};
 
 /// One more than a block, and a few.
 const LONGEST: usize = 67;
@@ -244,6 +252,11 @@ where
 fn everything<T: Elementary>() {
     let l = T::lit;
     let matrix = |a| RoughnessMatrix::rotated(l(a), l(0.1), l(0.4)).unwrap();
+    for row in Row::SOME {
+        for gamma in row.columns().gammas {
+            row.visit_some(Every([row.with(0.3, *gamma), row.with(0.01, *gamma)], PhantomData::<T>));
+        }
+    }
     let ggx = [0.3, 0.01].map(|alpha| Ggx::isotropic(l(alpha)).unwrap());
     let turned = [0.5, 0.02].map(|alpha| Ggx::from_roughness_matrix(matrix(alpha)));
     let beckmann = [0.3, 0.01].map(|alpha| Beckmann::anisotropic(l(alpha), l(0.2)).unwrap());
@@ -251,14 +264,10 @@ fn everything<T: Elementary>() {
     one(ggx, |m, len, at| evaluates(m, len, at));
     slice(ggx, |m, len, at| evaluates(m, len, at));
     one(turned, |m, len, at| evaluates(m, len, at));
-    one(beckmann, |m, len, at| evaluates(m, len, at));
     one(turned, |m, len, at| samples(m, len, at));
     slice(turned, |m, len, at| samples(m, len, at));
-    one(beckmann, |m, len, at| samples(m, len, at));
     let moved = beckmann.map(|surface| Transformed::new(surface, shear::<T>()).unwrap());
     one(moved, |m, len, at| samples(m, len, at));
-    let quick = [0.3, 0.01].map(|alpha| BeckmannTo1e6::isotropic(l(alpha)).unwrap());
-    one(quick, |m, len, at| samples(m, len, at));
 
     let glass = Dielectric::new(l(1.5)).unwrap();
     let rough = ggx.map(|surface| RoughConductor::new(surface, Schlick::new(l(0.9)).unwrap()));
@@ -280,6 +289,41 @@ fn everything<T: Elementary>() {
             surface.g1_batch(a.wo(), a.wi(), &mut out);
             same("g1", &out, |i| at(i).g1(direction::<T>(&a.wo, i), direction::<T>(&a.wi, i)));
         });
+    }
+}
+
+/// Every function of two distributions of a row, each under a map along the axes.
+struct Every<T>([Distribution; 2], PhantomData<T>);
+
+impl<T: Real> Every<T> {
+    fn surfaces<P: Profile<T>>(
+        &self,
+        profile: impl Fn(T, T) -> Result<P, Error>,
+    ) -> [Microsurface<P, AxisAligned<T>>; 2] {
+        let widths = |d: &Distribution| AxisAligned::new(T::lit(d.alpha), T::lit(0.2)).unwrap();
+        self.0.each_ref().map(|d| Microsurface::new(d.profile(&profile).unwrap(), widths(d)))
+    }
+}
+
+impl<T: Real> Visitor<T> for Every<T> {
+    type Output = ();
+
+    fn visible<P>(self, profile: impl Fn(T, T) -> Result<P, Error>)
+    where
+        P: SampleProfile<T> + SampleVisibleProfile<T>,
+        Microsurface<P, AxisAligned<T>>: Batched<T> + StagedVndf,
+    {
+        let surfaces = self.surfaces(profile);
+        one(surfaces, |m, len, at| evaluates(m, len, at));
+        one(surfaces, |m, len, at| samples(m, len, at));
+    }
+
+    fn all_normals<P>(self, profile: impl Fn(T, T) -> Result<P, Error>)
+    where
+        P: SampleProfile<T>,
+        Microsurface<P, AxisAligned<T>>: Batched<T>,
+    {
+        one(self.surfaces(profile), |m, len, at| evaluates(m, len, at));
     }
 }
 

@@ -120,7 +120,7 @@ impl Spec {
 
     pub(crate) fn build<T: Real>(&self) -> Result<Surface<T>, Error> {
         match self.shape {
-            Shape::Of(distribution) => distribution.visit(Build(self))?,
+            Shape::Of(distribution) => distribution.row.visit(Build(self, distribution)),
             Shape::Filtered { deviations, by_two } => {
                 let [x, y] = deviations.map(|deviation| T::lit(deviation));
                 let kernel = Covariance::axis_aligned(x * x, y * y);
@@ -254,25 +254,35 @@ impl Spec {
     }
 }
 
-/// Builds the surface of a profile.
-struct Build<'a>(&'a Spec);
+/// Builds the surface of a distribution.
+struct Build<'a>(&'a Spec, Distribution);
 
 impl<T: Real> Visitor<T> for Build<'_> {
     type Output = Result<Surface<T>, Error>;
 
-    fn visible<P: SampleVisibleProfile<T> + SampleProfile<T> + 'static>(self, profile: P) -> Self::Output {
-        match self.0.map(profile)? {
-            AnyMap::Isotropic(m) => self.0.all_and_visible_normals(Microsurface::new(profile, m)),
-            AnyMap::AxisAligned(m) => self.0.all_and_visible_normals(Microsurface::new(profile, m)),
-            AnyMap::Linear(m) => self.0.all_and_visible_normals(Microsurface::new(profile, m)),
+    fn visible<P: SampleVisibleProfile<T> + SampleProfile<T> + 'static>(
+        self,
+        profile: impl Fn(T, T) -> Result<P, Error>,
+    ) -> Self::Output {
+        let Self(spec, distribution) = self;
+        let profile = distribution.profile(profile)?;
+        match spec.map(profile)? {
+            AnyMap::Isotropic(m) => spec.all_and_visible_normals(Microsurface::new(profile, m)),
+            AnyMap::AxisAligned(m) => spec.all_and_visible_normals(Microsurface::new(profile, m)),
+            AnyMap::Linear(m) => spec.all_and_visible_normals(Microsurface::new(profile, m)),
         }
     }
 
-    fn all_normals<P: SampleProfile<T> + 'static>(self, profile: P) -> Self::Output {
-        match self.0.map(profile)? {
-            AnyMap::Isotropic(m) => self.0.all_normals(Microsurface::new(profile, m)),
-            AnyMap::AxisAligned(m) => self.0.all_normals(Microsurface::new(profile, m)),
-            AnyMap::Linear(m) => self.0.all_normals(Microsurface::new(profile, m)),
+    fn all_normals<P: SampleProfile<T> + 'static>(
+        self,
+        profile: impl Fn(T, T) -> Result<P, Error>,
+    ) -> Self::Output {
+        let Self(spec, distribution) = self;
+        let profile = distribution.profile(profile)?;
+        match spec.map(profile)? {
+            AnyMap::Isotropic(m) => spec.all_normals(Microsurface::new(profile, m)),
+            AnyMap::AxisAligned(m) => spec.all_normals(Microsurface::new(profile, m)),
+            AnyMap::Linear(m) => spec.all_normals(Microsurface::new(profile, m)),
         }
     }
 }

@@ -5,7 +5,7 @@ use microsurface::RoughnessMatrix;
 use microsurface::bsdf::{AllNormals, NormalSampling, RoughConductor, UniformMixture};
 use microsurface::fresnel::{Perfect, Spectrum};
 use microsurface::profile::{SampleProfile, SampleVisibleProfile};
-use microsurface::{AxisAligned, Isotropic, Linear, Microsurface, Ndf, Real, SampleNdf, SampleVndf};
+use microsurface::{AxisAligned, Error, Isotropic, Linear, Microsurface, Ndf, Real, SampleNdf, SampleVndf};
 
 use crate::chart::Inverse;
 use crate::rows::{Distribution, Visitor};
@@ -192,8 +192,8 @@ macro_rules! with_map {
     }};
 }
 
-/// What is made of the surface of a profile.
-struct Made<R: Recipe>(R, MapSpec);
+/// What is made of the surface of a distribution under a map.
+struct Made<R: Recipe>(R, Distribution, MapSpec);
 
 /// What is made of a surface: the surface itself, or a BRDF on it.
 trait Recipe {
@@ -208,12 +208,22 @@ trait Recipe {
 impl<T: Real + Spectrum<Scalar = T>, R: Recipe> Visitor<T> for Made<R> {
     type Output = R::Made;
 
-    fn visible<P: SampleVisibleProfile<T> + SampleProfile<T> + 'static>(self, profile: P) -> R::Made {
-        with_map!(T, profile, self.1, surface => self.0.make_visible(surface))
+    fn visible<P: SampleVisibleProfile<T> + SampleProfile<T> + 'static>(
+        self,
+        profile: impl Fn(T, T) -> Result<P, Error>,
+    ) -> R::Made {
+        let Self(recipe, distribution, map) = self;
+        let profile = distribution.profile(profile).expect("within the range");
+        with_map!(T, profile, map, surface => recipe.make_visible(surface))
     }
 
-    fn all_normals<P: SampleProfile<T> + 'static>(self, profile: P) -> R::Made {
-        with_map!(T, profile, self.1, surface => self.0.make(surface))
+    fn all_normals<P: SampleProfile<T> + 'static>(
+        self,
+        profile: impl Fn(T, T) -> Result<P, Error>,
+    ) -> R::Made {
+        let Self(recipe, distribution, map) = self;
+        let profile = distribution.profile(profile).expect("within the range");
+        with_map!(T, profile, map, surface => recipe.make(surface))
     }
 }
 
@@ -283,12 +293,12 @@ impl<T: Real + Spectrum<Scalar = T>> Scalar for T {}
 
 /// The surface of a distribution under a map.
 pub(crate) fn surface<T: Scalar>(distribution: Distribution, map: MapSpec) -> Box<dyn Surface> {
-    distribution.visit::<T, _>(Made(Itself, map)).expect("within the range")
+    distribution.row.visit::<T, _>(Made(Itself, distribution, map))
 }
 
 /// The same of one whose visible normals are drawn.
 pub(crate) fn visible<T: Scalar>(distribution: Distribution, map: MapSpec) -> Box<dyn Visible> {
-    let surface = distribution.visit::<T, _>(Made(ItselfVisible, map)).expect("within the range");
+    let surface = distribution.row.visit::<T, _>(Made(ItselfVisible, distribution, map));
     surface.expect("a distribution whose visible normals can be drawn")
 }
 
@@ -298,7 +308,7 @@ pub(crate) fn conductor<T: Scalar>(
     map: MapSpec,
     normals: Normals,
 ) -> Box<dyn Conductor> {
-    let brdf = distribution.visit::<T, _>(Made(normals, map)).expect("within the range");
+    let brdf = distribution.row.visit::<T, _>(Made(normals, distribution, map));
     brdf.expect("a distribution whose normals can be drawn so")
 }
 

@@ -79,7 +79,11 @@ fn cases<T: Scalar>(shapes: impl Iterator<Item = MapSpec>, angles: &[f64]) -> Ve
 }
 
 /// The same with every `stride`-th angle, another one first for each shape.
-fn cases_in_turn<T: Scalar>(shapes: impl Iterator<Item = MapSpec>, angles: &[f64], stride: usize) -> Vec<Case> {
+fn cases_in_turn<T: Scalar>(
+    shapes: impl Iterator<Item = MapSpec>,
+    angles: &[f64],
+    stride: usize,
+) -> Vec<Case> {
     let mut result = Vec::new();
     for ((shape, seed), turn) in shapes.zip((1..).step_by(100)).zip((0..stride).cycle()) {
         for (&degrees, seed) in angles[turn..].iter().step_by(stride).zip(seed..) {

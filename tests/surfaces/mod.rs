@@ -13,7 +13,7 @@ use microsurface::{
 /// What is known of a distribution.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Columns {
-    /// As in the tables of 50-digit values and in the benchmarks.
+    /// As in the benchmarks, and in the tables of 50-digit values for those of one γ.
     pub(crate) name: &'static str,
     /// Whether the profile has a width α ≤ 1 of its own, below that of its map.
     pub(crate) own_width: bool,
@@ -28,8 +28,6 @@ pub(crate) struct Columns {
     pub(crate) roundings: [f64; 2],
     /// How often random tests take it.
     pub(crate) share: u8,
-    /// The γ that benchmarks take.
-    pub(crate) benched: Option<f64>,
 }
 
 /// How near σ is to that of D.
@@ -53,48 +51,64 @@ const PLAIN: Columns = Columns {
     sampling_of: None,
     roundings: [5.0, 0.0],
     share: 9,
-    benched: Some(2.0),
 };
 const BECKMANN: Columns = Columns {
     name: "beckmann",
     gammas: &[f64::INFINITY],
     range: [f64::INFINITY; 2],
     roundings: [4.0, 0.0],
-    benched: Some(f64::INFINITY),
     ..PLAIN
 };
 /// GTR of any γ.
 const GTR: Columns = Columns {
-    name: "gtr",
+    name: "gtr-8-nodes",
     own_width: true,
     gammas: &[0.3, 1.2, 1.5, 2.01, 2.5, 3.9, 7.3],
     range: [0.0, 10.0],
     mask: Mask::Nodes,
     roundings: [8.0, 0.8],
     share: 6,
-    benched: None,
     ..PLAIN
 };
 /// GTR of an integer γ.
 const CLOSED: Columns = Columns { mask: Mask::Exact, share: 1, ..GTR };
 
 /// Defines [`Row`] and what each is made of: its columns, whether its visible normals can be drawn,
-/// and the profile of an α and a γ.
+/// and the profile of an α and a γ. The rows of the first block stand for all where every one is
+/// compiled dozens of times.
 macro_rules! rows {
     (@visible visible) => { true };
     (@visible all_normals) => { false };
-    ($($(#[$doc:meta])* $row:ident = $columns:expr => $normals:ident($profile:expr);)*) => {
+    (@visit $visitor:ident, $row:ident; $($name:ident $normals:ident $profile:expr;)*) => {
+        match $row {
+            $(Row::$name => Some($visitor.$normals($profile)),)*
+            #[allow(unreachable_patterns, reason = "of the rows that stand for all, not of all")]
+            _ => None,
+        }
+    };
+    (
+        some {
+            $($(#[$doc:meta])* $row:ident = $columns:expr => $normals:ident($profile:expr);)*
+        }
+        others {
+            $($(#[$other_doc:meta])* $other:ident = $other_columns:expr => $other_normals:ident($other_profile:expr);)*
+        }
+    ) => {
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         pub(crate) enum Row {
             $($(#[$doc])* $row,)*
+            $($(#[$other_doc])* $other,)*
         }
 
         impl Row {
-            pub(crate) const ALL: &[Self] = &[$(Self::$row,)*];
+            pub(crate) const ALL: &[Self] = &[$(Self::$row,)* $(Self::$other,)*];
+            /// Those that stand for all.
+            pub(crate) const SOME: &[Self] = &[$(Self::$row,)*];
 
             pub(crate) const fn columns(self) -> Columns {
                 match self {
                     $(Self::$row => $columns,)*
+                    $(Self::$other => $other_columns,)*
                 }
             }
 
@@ -102,57 +116,61 @@ macro_rules! rows {
             pub(crate) const fn samples_visible(self) -> bool {
                 match self {
                     $(Self::$row => rows!(@visible $normals),)*
+                    $(Self::$other => rows!(@visible $other_normals),)*
                 }
             }
-        }
 
-        impl Distribution {
-            /// Shows the profile to `visitor`.
-            pub(crate) fn visit<T: Real, V: Visitor<T>>(self, visitor: V) -> Result<V::Output, Error> {
-                fn same<T, P>(profile: impl Fn(T, T) -> Result<P, Error>) -> impl Fn(T, T) -> Result<P, Error> {
-                    profile
-                }
-                let [alpha, gamma] = [self.alpha, self.gamma].map(T::lit);
-                match self.row {
-                    $(Row::$row => Ok(visitor.$normals(same::<T, _>($profile)(alpha, gamma)?)),)*
-                }
+            /// Shows to `visitor` how a profile is made.
+            pub(crate) fn visit<T: Real, V: Visitor<T>>(self, visitor: V) -> V::Output {
+                let output = rows!(@visit visitor, self;
+                    $($row $normals $profile;)* $($other $other_normals $other_profile;)*);
+                output.expect("one of all")
+            }
+
+            /// The same of one that stands for all.
+            pub(crate) fn visit_some<T: Real, V: Visitor<T>>(self, visitor: V) -> V::Output {
+                let output = rows!(@visit visitor, self; $($row $normals $profile;)*);
+                output.expect("one that stands for all")
             }
         }
     };
 }
 
 rows! {
-    Ggx = Columns { name: "ggx", ..PLAIN } => visible(|_, _| Ok(Ggx));
-    Beckmann = BECKMANN => visible(|_, _| Ok(Beckmann));
-    BeckmannTo1e6 = Columns { name: "beckmann-to-1e-6", sampling_of: Some(Row::Beckmann), share: 2, ..BECKMANN }
-        => visible(|_, _| Ok(BeckmannTo1e6));
-    /// The mask of eight nodes.
-    Gtr = GTR => visible(|alpha, gamma| Ok(*Gtr::isotropic(alpha, gamma)?.profile()));
-    HeavyGtr = Columns { name: "gtr-heavy", gammas: &[0.3, 1.2, 1.5, 2.0], range: [0.0, 2.0], share: 3, ..GTR }
-        => visible(|alpha, gamma| Ok(*Gtr::heavy_tailed::<8>(alpha, gamma)?.profile()));
-    SplineGtr = Columns {
-            name: "gtr-spline",
-            gammas: &[0.3, 1.5, 2.5, 3.9],
-            range: [0.0, 4.0],
-            mask: Mask::Spline,
-            roundings: [6.0, 0.0],
-            benched: Some(1.5),
-            ..GTR
-        } => all_normals(|alpha, gamma| Ok(*Gtr::spline(alpha, gamma)?.profile()));
-    Gtr0 = Columns { name: "gtr-closed-0", gammas: &[0.0], range: [0.0; 2], ..CLOSED }
-        => visible(|alpha, _| Ok(*Gtr::closed::<0>(alpha)?.profile()));
-    Gtr1 = Columns { name: "gtr-closed-1", gammas: &[1.0], range: [1.0; 2], benched: Some(1.0), ..CLOSED }
-        => visible(|alpha, _| Ok(*Gtr::closed::<1>(alpha)?.profile()));
-    Gtr2 = Columns { name: "gtr-closed-2", gammas: &[2.0], range: [2.0; 2], ..CLOSED }
-        => visible(|alpha, _| Ok(*Gtr::closed::<2>(alpha)?.profile()));
-    Gtr3 = Columns { name: "gtr-closed-3", gammas: &[3.0], range: [3.0; 2], benched: Some(3.0), ..CLOSED }
-        => visible(|alpha, _| Ok(*Gtr::closed::<3>(alpha)?.profile()));
-    Gtr4 = Columns { name: "gtr-closed-4", gammas: &[4.0], range: [4.0; 2], ..CLOSED }
-        => visible(|alpha, _| Ok(*Gtr::closed::<4>(alpha)?.profile()));
-    Gtr6 = Columns { name: "gtr-closed-6", gammas: &[6.0], range: [6.0; 2], ..CLOSED }
-        => visible(|alpha, _| Ok(*Gtr::closed::<6>(alpha)?.profile()));
-    Gtr10 = Columns { name: "gtr-closed-10", gammas: &[10.0], range: [10.0; 2], ..CLOSED }
-        => visible(|alpha, _| Ok(*Gtr::closed::<10>(alpha)?.profile()));
+    some {
+        Ggx = Columns { name: "ggx", ..PLAIN } => visible(|_, _| Ok(Ggx));
+        Beckmann = BECKMANN => visible(|_, _| Ok(Beckmann));
+        BeckmannTo1e6 = Columns { name: "beckmann-to-1e-6", sampling_of: Some(Row::Beckmann), share: 2, ..BECKMANN }
+            => visible(|_, _| Ok(BeckmannTo1e6));
+        /// The mask of eight nodes.
+        Gtr = GTR => visible(|alpha, gamma| Ok(*Gtr::isotropic(alpha, gamma)?.profile()));
+        HeavyGtr = Columns { name: "gtr-heavy-8-nodes", gammas: &[0.3, 1.2, 1.5, 2.0], range: [0.0, 2.0], share: 3, ..GTR }
+            => visible(|alpha, gamma| Ok(*Gtr::heavy_tailed::<8>(alpha, gamma)?.profile()));
+        SplineGtr = Columns {
+                name: "gtr-spline",
+                gammas: &[0.3, 1.5, 2.5, 3.9],
+                range: [0.0, 4.0],
+                mask: Mask::Spline,
+                roundings: [6.0, 0.0],
+                ..GTR
+            } => all_normals(|alpha, gamma| Ok(*Gtr::spline(alpha, gamma)?.profile()));
+        Gtr1 = Columns { name: "gtr-closed-1", gammas: &[1.0], range: [1.0; 2], ..CLOSED }
+            => visible(|alpha, _| Ok(*Gtr::closed::<1>(alpha)?.profile()));
+        Gtr3 = Columns { name: "gtr-closed-3", gammas: &[3.0], range: [3.0; 2], ..CLOSED }
+            => visible(|alpha, _| Ok(*Gtr::closed::<3>(alpha)?.profile()));
+    }
+    others {
+        Gtr0 = Columns { name: "gtr-closed-0", gammas: &[0.0], range: [0.0; 2], ..CLOSED }
+            => visible(|alpha, _| Ok(*Gtr::closed::<0>(alpha)?.profile()));
+        Gtr2 = Columns { name: "gtr-closed-2", gammas: &[2.0], range: [2.0; 2], ..CLOSED }
+            => visible(|alpha, _| Ok(*Gtr::closed::<2>(alpha)?.profile()));
+        Gtr4 = Columns { name: "gtr-closed-4", gammas: &[4.0], range: [4.0; 2], ..CLOSED }
+            => visible(|alpha, _| Ok(*Gtr::closed::<4>(alpha)?.profile()));
+        Gtr6 = Columns { name: "gtr-closed-6", gammas: &[6.0], range: [6.0; 2], ..CLOSED }
+            => visible(|alpha, _| Ok(*Gtr::closed::<6>(alpha)?.profile()));
+        Gtr10 = Columns { name: "gtr-closed-10", gammas: &[10.0], range: [10.0; 2], ..CLOSED }
+            => visible(|alpha, _| Ok(*Gtr::closed::<10>(alpha)?.profile()));
+    }
 }
 
 impl Row {
@@ -204,6 +222,13 @@ impl Distribution {
     pub(crate) const BECKMANN: Self = Row::Beckmann.with(1.0, f64::INFINITY);
 }
 
+impl Distribution {
+    /// The profile.
+    pub(crate) fn profile<T: Real, P>(&self, profile: impl Fn(T, T) -> Result<P, Error>) -> Result<P, Error> {
+        profile(T::lit(self.alpha), T::lit(self.gamma))
+    }
+}
+
 impl fmt::Debug for Distribution {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Columns { own_width, range: [low, high], .. } = self.row.columns();
@@ -219,20 +244,20 @@ impl fmt::Debug for Distribution {
 pub(crate) trait Batched<T>: SampleNdf<Scalar = T> + Material<Local = Self> {}
 impl<T, N: SampleNdf<Scalar = T> + Material<Local = N>> Batched<T> for N {}
 
-/// What is done with a profile, of whichever type.
+/// What is done with the profiles of a row, of whichever type. They are made of an α and a γ.
 pub(crate) trait Visitor<T: Real> {
     type Output;
 
-    /// A profile whose visible normals can be drawn.
-    fn visible<P>(self, profile: P) -> Self::Output
+    /// Profiles whose visible normals can be drawn.
+    fn visible<P>(self, profile: impl Fn(T, T) -> Result<P, Error>) -> Self::Output
     where
         P: SampleProfile<T> + SampleVisibleProfile<T> + 'static,
         Microsurface<P, Isotropic<T>>: Batched<T> + StagedVndf,
         Microsurface<P, AxisAligned<T>>: Batched<T> + StagedVndf,
         Microsurface<P, Linear<T>>: Batched<T> + StagedVndf;
 
-    /// A profile of which all normals can be drawn and no more.
-    fn all_normals<P>(self, profile: P) -> Self::Output
+    /// Profiles of which all normals can be drawn and no more.
+    fn all_normals<P>(self, profile: impl Fn(T, T) -> Result<P, Error>) -> Self::Output
     where
         P: SampleProfile<T> + 'static,
         Microsurface<P, Isotropic<T>>: Batched<T>,

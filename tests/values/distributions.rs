@@ -2,15 +2,17 @@
 
 use microsurface::beckmann::BeckmannTo1e6;
 use microsurface::filter::{Covariance, gaussian};
+use microsurface::gtr::Density;
 use microsurface::gtr::components::Components;
 use microsurface::gtr::table::GtrTable;
-use microsurface::gtr::{Density, Masking};
+use microsurface::profile::{Profile, SampleProfile, SampleVisibleProfile};
 use microsurface::transform::Transformed;
 use microsurface::{
-    Beckmann, Ggx, Gtr, Isotropic, Microsurface, Real, RoughnessMatrix, SampleNdf, SampleVndf,
+    Beckmann, Error, Ggx, Gtr, Isotropic, Linear, Microsurface, Real, RoughnessMatrix, SampleNdf, SampleVndf,
 };
 
 use crate::arguments::Random;
+use crate::rows::{Distribution, Row, Visitor};
 use crate::{Hash, Record, name};
 
 /// Arguments of a function of one surface.
@@ -110,12 +112,6 @@ fn gtr<T: Real>(record: &mut Record) {
         "GTR heavy stretched",
         &Gtr::heavy_tailed::<6>(l(0.3), l(1.3)).unwrap().stretched(l(-0.3)).unwrap(),
     );
-    closed::<T, _>(record, "0", &Gtr::closed::<0>(l(0.2)).unwrap());
-    closed::<T, _>(record, "1", &Gtr::closed::<1>(l(0.2)).unwrap());
-    closed::<T, _>(record, "2", &Gtr::closed::<2>(l(0.2)).unwrap());
-    closed::<T, _>(record, "3", &Gtr::closed::<3>(l(0.2)).unwrap());
-    closed::<T, _>(record, "4", &Gtr::closed::<4>(l(0.2)).unwrap());
-    closed::<T, _>(record, "10", &Gtr::closed::<10>(l(0.2)).unwrap());
     evaluated(record, "GTR spline", &Gtr::spline(l(0.2), l(1.4)).unwrap());
     let table = GtrTable::<T, 8>::new(l(2.5), l(1e-3)).unwrap();
     both(record, "GTR of a table", &table.isotropic(l(0.17)).unwrap());
@@ -133,14 +129,35 @@ fn gtr<T: Real>(record: &mut Record) {
     });
 }
 
-fn closed<T: Real, K: Masking<T>>(
-    record: &mut Record,
-    gamma: &str,
-    surface: &Microsurface<Gtr<T, K>, Isotropic<T>>,
-) where
-    Microsurface<Gtr<T, K>, Isotropic<T>>: SampleVndf<Scalar = T>,
-{
-    both(record, &format!("GTR closed {gamma}"), surface);
+/// Every row: below its widths, and moved.
+struct Every<'a>(&'a mut Record, Distribution);
+
+impl Every<'_> {
+    /// The name, and the surfaces.
+    fn surfaces<T: Real, P: Profile<T>>(
+        &self,
+        profile: impl Fn(T, T) -> Result<P, Error>,
+    ) -> [(String, Microsurface<P, Linear<T>>); 2] {
+        let profile = self.1.profile(profile).unwrap();
+        let still = Microsurface::new(profile, Linear::from(Isotropic::new(T::lit(0.6)).unwrap()));
+        let moved = still.transformed(moves::<T>()[1]).unwrap();
+        [(format!("row {:?}", self.1), still), (format!("row {:?} moved", self.1), moved)]
+    }
+}
+
+impl<T: Real> Visitor<T> for Every<'_> {
+    type Output = ();
+
+    fn visible<P>(self, profile: impl Fn(T, T) -> Result<P, Error>)
+    where
+        P: SampleProfile<T> + SampleVisibleProfile<T>,
+    {
+        self.surfaces(profile).iter().for_each(|(name, surface)| both(self.0, name, surface));
+    }
+
+    fn all_normals<P: SampleProfile<T>>(self, profile: impl Fn(T, T) -> Result<P, Error>) {
+        self.surfaces(profile).iter().for_each(|(name, surface)| evaluated(self.0, name, surface));
+    }
 }
 
 pub(crate) fn all<T: Real>(record: &mut Record) {
@@ -148,6 +165,9 @@ pub(crate) fn all<T: Real>(record: &mut Record) {
     under_every_map!(record, "Beckmann", Beckmann, T);
     both(record, "Beckmann to 1e-6", &BeckmannTo1e6::isotropic(T::lit(0.3)).unwrap());
     gtr::<T>(record);
+    for distribution in Row::ALL.iter().flat_map(|row| row.of_width(0.2)) {
+        distribution.row.visit::<T, _>(Every(record, distribution));
+    }
     let [x, y] = [0.02, 0.3].map(T::lit);
     let ggx = Ggx::isotropic(T::lit(0.1)).unwrap();
     both(record, "convolved GGX", &gaussian::filtered(&ggx, Covariance::axis_aligned(x, y)).unwrap());

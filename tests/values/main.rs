@@ -18,6 +18,9 @@ mod filters;
 mod footprints;
 mod functions;
 mod reflection;
+#[path = "../surfaces/mod.rs"]
+#[expect(dead_code, reason = "not every crate reads every column")]
+mod rows;
 
 use core::fmt::Write as _;
 
