@@ -12,6 +12,9 @@ mod every_f32;
 
 use microsurface::elementary as e;
 
+use crate::random::Random;
+use crate::worst::Worst;
+
 /// A function and the largest error it may have, in ulp of the exact value.
 struct Budget {
     name: &'static str,
@@ -57,28 +60,20 @@ const BUDGET: &[Budget] = budget! {
 const EXP_WIDE: (f64, f64) = (0.75, -25.247);
 const LN_WIDE: f64 = 5e-12;
 
-/// The worst error seen, in ulp, and its arguments.
-#[derive(Clone, Copy, Debug, Default)]
-struct Worst {
-    ulp: f64,
-    at: (f64, f64),
-}
+/// The worst error, in ulp, and its arguments.
+type WorstUlp = Worst<(f64, f64)>;
 
-impl Worst {
+impl WorstUlp {
     /// `error` is the difference from `want` of a number with `digits` digits and this least
     /// exponent.
-    fn see(&mut self, at: (f64, f64), error: f64, want: f64, digits: i32, least: i32) {
+    fn see_ulp(&mut self, at: (f64, f64), error: f64, want: f64, digits: i32, least: i32) {
         let exponent = ((want.abs().to_bits() >> 52) as i32 - 1023).max(least);
-        let ulp = (error * 2f64.powi(digits - 1) / 2f64.powi(exponent)).abs();
-        // a NaN is the worst of all
-        if ulp.is_nan() || ulp > self.ulp {
-            *self = Self { ulp, at };
-        }
+        self.see(error * 2f64.powi(digits - 1) / 2f64.powi(exponent), || at);
     }
 
     /// Within the bound, and not so far within that the bound is a lie.
     fn check(self, name: &str, (bound, seen_at): (f64, f64), failures: &mut Vec<String>) {
-        let Self { ulp, at: (x, g) } = self;
+        let Self { error: ulp, at: (x, g), .. } = self;
         println!("{name:22} {ulp:6.3} ulp at {x:e} {g:e}   (bound {bound}, once at {seen_at:e})");
         if !(ulp <= bound && ulp >= bound / 2.0) {
             failures.push(format!("{name}: worst {ulp} ulp at {x:e} {g:e}, stated {bound}"));
@@ -86,16 +81,16 @@ impl Worst {
     }
 }
 
-fn double(worst: &mut Worst, at: (f64, f64), got: f64, high: f64, low: f64) {
+fn double(worst: &mut WorstUlp, at: (f64, f64), got: f64, high: f64, low: f64) {
     if got != high || got.is_finite() {
-        worst.see(at, (got - high) - low, high, 53, -1022);
+        worst.see_ulp(at, (got - high) - low, high, 53, -1022);
     }
 }
 
-fn single(worst: &mut Worst, at: (f32, f32), got: f32, want: f64) {
+fn single(worst: &mut WorstUlp, at: (f32, f32), got: f32, want: f64) {
     // NaN with NaN, infinity with what rounds to it
     if !(got.is_nan() && want.is_nan() || got == want as f32) || got.is_finite() {
-        worst.see((f64::from(at.0), f64::from(at.1)), f64::from(got) - want, want, 24, -126);
+        worst.see_ulp((f64::from(at.0), f64::from(at.1)), f64::from(got) - want, want, 24, -126);
     }
 }
 
@@ -110,27 +105,11 @@ fn rows(name: &str) -> impl Iterator<Item = [f64; 4]> {
     })
 }
 
-/// `SplitMix64` (Steele, Lea, Flood 2014).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn uniform(&mut self) -> f64 {
-        (self.next() >> 11) as f64 * 2f64.powi(-53)
-    }
-}
-
 #[test]
 fn f64_is_as_accurate_as_stated() {
     let mut failures = Vec::new();
     for budget in BUDGET {
-        let mut worst = Worst::default();
+        let mut worst = WorstUlp::default();
         for [x, g, high, low] in rows(budget.name) {
             double(&mut worst, (x, g), (budget.double)(x, g), high, low);
         }
@@ -142,14 +121,14 @@ fn f64_is_as_accurate_as_stated() {
 #[test]
 fn f32_is_within_its_bound_on_the_table() {
     for budget in BUDGET {
-        let mut worst = Worst::default();
+        let mut worst = WorstUlp::default();
         for [x, g, high, _] in rows(budget.name) {
             let at = (x as f32, g as f32);
             if f64::from(at.0) == x && f64::from(at.1) == g {
                 single(&mut worst, at, (budget.single)(at.0, at.1), high);
             }
         }
-        assert!(worst.ulp <= budget.f32.0, "{}: {worst:?}", budget.name);
+        assert!(worst.error <= budget.f32.0, "{}: {worst:?}", budget.name);
     }
 }
 
@@ -157,13 +136,13 @@ fn f32_is_within_its_bound_on_the_table() {
 fn f32_is_as_accurate_as_stated() {
     let mut failures = Vec::new();
     for budget in BUDGET {
-        let (mut worst, mut random) = (Worst::default(), Random(1));
+        let (mut worst, mut random) = (WorstUlp::default(), Random(1));
         for i in 0..1_000_000 {
-            let bits = random.next() as u32;
+            let bits = random.bits() as u32;
             let uniform = f64::from(bits) * 2f64.powi(-32);
             let (from, to) = budget.domain;
             let x = if i % 2 == 0 { f32::from_bits(bits) } else { from + (to - from) * uniform as f32 };
-            let span = 90.0 * (2.0 * random.uniform() - 1.0);
+            let span = 90.0 * (2.0 * random.unit() - 1.0);
             let g = match budget.name {
                 "pow" => (span / e::ln(f64::from(x))) as f32,
                 "atan2" => (span / 30.0) as f32,
@@ -179,13 +158,13 @@ fn f32_is_as_accurate_as_stated() {
 /// e^x and ln x of f64 arguments, for f32: in ulp, and relative.
 #[test]
 fn wide_arguments_are_used_to_all_digits() {
-    let (mut exp, mut ln, mut random, mut failures) = (Worst::default(), 0f64, Random(2), Vec::new());
+    let (mut exp, mut ln, mut random, mut failures) = (WorstUlp::default(), 0f64, Random(2), Vec::new());
     for _ in 0..500_000 {
-        let x = -104.0 + 193.0 * random.uniform();
+        let x = -104.0 + 193.0 * random.unit();
         single(&mut exp, (x as f32, 0.0), e::exp_wide(x), e::exp(x));
-        let x = f64::from_bits(random.next() >> 1);
-        let x = if x.is_finite() { x } else { 0.5 + random.uniform() };
-        for x in [x, 0.5 + random.uniform(), 1.0 - 1e-3 * random.uniform()] {
+        let x = f64::from_bits(random.bits() >> 1);
+        let x = if x.is_finite() { x } else { 0.5 + random.unit() };
+        for x in [x, 0.5 + random.unit(), 1.0 - 1e-3 * random.unit()] {
             ln = ln.max((e::ln_wide::<f32>(x) / e::ln(x) - 1.0).abs());
         }
     }
@@ -323,9 +302,9 @@ fn monotonic_where_the_slope_exceeds_the_error() {
 fn inverses_invert() {
     let mut random = Random(3);
     for _ in 0..100_000 {
-        let p = 2.0 * random.uniform() - 1.0;
+        let p = 2.0 * random.unit() - 1.0;
         assert!((e::erf(e::erf_inv(p)) - p).abs() < 1e-15, "{p}");
-        let q = e::exp(-700.0 * random.uniform());
+        let q = e::exp(-700.0 * random.unit());
         let x = e::erfc_inv(q);
         assert!((e::erfc(x) / q - 1.0).abs() < 1e-15 * (4.0 + 2.0 * x * x), "{q:e}");
     }

@@ -14,13 +14,10 @@ use microsurface::Real;
 use microsurface::filter::Footprint;
 use microsurface::glam::DVec2;
 use microsurface::map::Map;
-use rand::{Rng, RngExt};
+use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
 
-/// Uniform in [low, high).
-fn uniform(random: &mut Pcg64Mcg, low: f64, high: f64) -> f64 {
-    low + (high - low) * (random.next_u64() >> 11) as f64 * (0.5 * f64::EPSILON)
-}
+use crate::random::uniform;
 
 /// The entries of the roughness matrix of a map, and its determinant, without rounding to the
 /// scalar.

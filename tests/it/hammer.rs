@@ -15,39 +15,12 @@ use microsurface::roughness::alpha_range;
 use microsurface::{Ndf, SampleNdf, SampleVndf};
 
 use crate::properties::skewness;
+use crate::random::Random;
 use crate::rows::Row;
 use crate::scalar::{Scalar, dot, wide};
 use crate::surfaces::{Move, Shape, Spec, Surface, Widths};
 
-/// splitmix64: a few operations, and the same everywhere.
-struct Random(u64);
-
 impl Random {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// Uniform in [0, 1).
-    fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 * (0.5 * f64::EPSILON)
-    }
-
-    fn below(&mut self, n: u64) -> u64 {
-        self.bits() % n
-    }
-
-    fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    /// Log-uniform between two powers of ten.
-    fn decades(&mut self, low: f64, high: f64) -> f64 {
-        10_f64.powf(self.within(low, high))
-    }
-
     fn ulps(&mut self) -> i32 {
         i32::try_from(self.below(9)).expect("a small number") - 4
     }

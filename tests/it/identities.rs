@@ -15,6 +15,7 @@ use crate::quadrature::{Estimate, Plane, over_hemisphere, over_reflected_directi
 use crate::rows::{Distribution, Mask, Row};
 use crate::scalar::{Scalar, dot, unit, vec3, wide};
 use crate::surfaces::{Move, Shape, Spec, Surface, Widths};
+use crate::worst::Worst;
 
 /// The limit of a relative deviation, and the largest share of it that the coarser cubature may be
 /// off the finer: where both reach the rounding there is no smaller difference to be had.
@@ -24,33 +25,25 @@ struct Limit {
     share: f64,
 }
 
-/// The largest deviation seen of one identity.
+/// The largest deviation seen of one identity, and the largest difference of two cubatures.
 #[derive(Debug, Default)]
-struct Worst {
-    deviation: f64,
-    bound: f64,
-    at: String,
-    bound_at: String,
+struct Checked {
+    deviation: Worst,
+    bound: Worst,
 }
 
-impl Worst {
+impl Checked {
     fn see(&mut self, estimate: Estimate, exact: f64, at: &dyn Fn() -> String) {
-        // NaN counts as infinitely far off.
-        let size = |x: f64| if x.is_nan() { f64::INFINITY } else { x.abs() };
-        let (deviation, bound) = (size(estimate.value / exact - 1.0), size(estimate.bound / exact));
-        if self.at.is_empty() || deviation > self.deviation {
-            (self.deviation, self.at) = (deviation, at());
-        }
-        if self.bound_at.is_empty() || bound > self.bound {
-            (self.bound, self.bound_at) = (bound, at());
-        }
+        self.deviation.see(estimate.value / exact - 1.0, at);
+        self.bound.see(estimate.bound / exact, at);
     }
 
     fn check(&self, name: &str, limit: &Limit) {
-        println!("{name}: deviation {:.2e} at {}", self.deviation, self.at);
-        println!("    cubature {:.2e} at {}", self.bound, self.bound_at);
-        assert!(self.deviation <= limit.relative, "{name}: {self:?}");
-        assert!(self.bound <= limit.share * limit.relative, "{name}: cubature too coarse, {self:?}");
+        let Self { deviation, bound } = self;
+        println!("{name}: deviation {:.2e} at {}", deviation.error, deviation.at);
+        println!("    cubature {:.2e} at {}", bound.error, bound.at);
+        assert!(deviation.error <= limit.relative, "{name}: {self:?}");
+        assert!(bound.error <= limit.share * limit.relative, "{name}: cubature too coarse, {self:?}");
     }
 }
 
@@ -132,7 +125,7 @@ fn directions<T: Scalar>() -> Vec<[f64; 3]> {
 /// D and what follows from it over normals, one evaluation of each; the last two for masks of eight
 /// nodes.
 fn over_normals<T: Scalar>(limits: &[Limit; 6]) {
-    let mut worst: [Worst; 6] = Default::default();
+    let mut worst: [Checked; 6] = Default::default();
     let mut integrals = 0;
     // Every third in f32: what differs is the rounding.
     for spec in specs().into_iter().step_by(if T::NAME == "f32" { 3 } else { 1 }) {
@@ -208,7 +201,7 @@ fn integrals_over_normals_f32() {
 /// wi sweeps is the derivative of the mirror direction by the slope.
 #[test]
 fn furnace_over_reflected_directions() {
-    let mut worst = Worst::default();
+    let mut worst = Checked::default();
     for spec in specs().into_iter().filter(|spec| spec.mask() == Mask::Exact).step_by(2) {
         let surface: Surface<f64> = spec.build().expect("within the domain");
         for w in directions::<f64>().into_iter().filter(|w| w[2] > 0.01) {
@@ -248,7 +241,7 @@ fn rough() -> Vec<Spec> {
 /// The same furnace with nothing but directions: polar coordinates of wi about w.
 #[test]
 fn furnace_over_the_sphere_of_directions() {
-    let mut worst = Worst::default();
+    let mut worst = Checked::default();
     for spec in rough() {
         let surface: Surface<f64> = spec.build().expect("within the domain");
         for w in [[0.0, 0.0, 1.0], [0.3, 0.4, 0.8], [-0.8, 0.3, 0.4]].map(unit) {
@@ -266,7 +259,7 @@ fn furnace_over_the_sphere_of_directions() {
 /// A reflection's pdf over the hemisphere is the share of normals that reflect above the horizon.
 #[test]
 fn pdf_over_the_hemisphere_of_directions() {
-    let (mut visible, mut all) = (Worst::default(), Worst::default());
+    let (mut visible, mut all) = (Checked::default(), Checked::default());
     for spec in rough() {
         let surface: Surface<f64> = spec.build().expect("within the domain");
         let plane = plane::<f64>(&spec);

@@ -20,6 +20,8 @@ mod hammer;
 mod identities;
 mod properties;
 mod quadrature;
+#[path = "../random/mod.rs"]
+mod random;
 mod readme;
 mod reflection;
 mod roughness;
@@ -31,3 +33,4 @@ mod stored;
 mod strategies;
 mod surfaces;
 mod transform;
+mod worst;

@@ -4,13 +4,9 @@ use microsurface::glam::{DMat2, DMat3, DQuat, DVec2, DVec3};
 use microsurface::transform::tension::{Mean, Mesh, Triangle, interpolated};
 use microsurface::transform::{Transformed, jacobian_of_normals, jacobian_of_uv_map};
 use microsurface::{Beckmann, Error, Ggx, Gtr, Ndf, SampleNdf, SampleVndf};
-use rand::Rng;
 use rand_pcg::Pcg64Mcg;
 
-/// Uniform in [low, high).
-fn uniform(random: &mut Pcg64Mcg, low: f64, high: f64) -> f64 {
-    low + (high - low) * (random.next_u64() >> 11) as f64 * (0.5 * f64::EPSILON)
-}
+use crate::random::uniform;
 
 /// Entries within ±10, the ratio of singular values at most `condition`.
 fn matrix(random: &mut Pcg64Mcg, condition: f64) -> DMat2 {

@@ -4,39 +4,9 @@ use core::f64::consts::TAU;
 
 use microsurface::Real;
 
-/// splitmix64.
-pub(crate) struct Random(u64);
+use crate::random::Random;
 
 impl Random {
-    pub(crate) const fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    #[expect(clippy::cast_precision_loss, reason = "53 bits")]
-    pub(crate) fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 * (0.5 * f64::EPSILON)
-    }
-
-    pub(crate) fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    /// Log-uniform between two powers of ten.
-    pub(crate) fn decades(&mut self, low: f64, high: f64) -> f64 {
-        libm::pow(10.0, self.within(low, high))
-    }
-
-    pub(crate) fn below(&mut self, n: u64) -> u64 {
-        self.bits() % n
-    }
-
     /// A direction on or above the horizon: one in four grazes or is steep.
     pub(crate) fn above<T: Real>(&mut self) -> [T; 3] {
         let z = match self.below(16) {

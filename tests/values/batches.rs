@@ -9,7 +9,7 @@ use microsurface::bsdf::{AllNormals, RoughConductor, UniformMixture};
 use microsurface::fresnel::{Schlick, Spectrum};
 use microsurface::{Beckmann, Ggx, Gtr, Real};
 
-use crate::arguments::Random;
+use crate::random::Random;
 use crate::{Hash, Record, name};
 
 /// Elements, no multiple of a block.
@@ -25,7 +25,7 @@ struct Arguments<T> {
 
 impl<T: Real> Arguments<T> {
     fn new() -> Self {
-        let mut random = Random::new(26);
+        let mut random = Random(26);
         let mut three = |below: bool| {
             let all: Vec<[T; 3]> =
                 (0..COUNT).map(|_| if below { random.anywhere() } else { random.above() }).collect();
@@ -111,7 +111,7 @@ pub(crate) fn all<T: Real + Spectrum<Scalar = T>>(record: &mut Record) {
     }
     evaluated!(record, "GTR heavy", T, Gtr::heavy_tailed::<8>(l(0.2), l(1.2)).unwrap());
     evaluated!(record, "GTR closed", T, Gtr::closed::<3>(l(0.2)).unwrap());
-    let mut random = Random::new(27);
+    let mut random = Random(27);
     let mut numbers =
         |low: f64, high: f64| -> Vec<T> { (0..COUNT).map(|_| l(random.decades(low, high))).collect() };
     let (alphas, others, steps) = (numbers(-3.0, 0.0), numbers(-3.0, 0.0), numbers(-4.0, 0.0));

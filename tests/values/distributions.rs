@@ -11,7 +11,7 @@ use microsurface::{
     Beckmann, Error, Ggx, Gtr, Isotropic, Linear, Microsurface, Real, RoughnessMatrix, SampleNdf, SampleVndf,
 };
 
-use crate::arguments::Random;
+use crate::random::Random;
 use crate::rows::{Distribution, Row, Visitor};
 use crate::{Hash, Record, name};
 
@@ -22,7 +22,7 @@ fn evaluated<N: SampleNdf>(record: &mut Record, of: &str, surface: &N) {
     let scalar = name::<N::Scalar>();
     let mut each = |function: &str, f: &dyn Fn(&mut Random, &mut Hash)| {
         record.group(format!("{of} {scalar} {function}"), |hash| {
-            let mut random = Random::new(1);
+            let mut random = Random(1);
             for _ in 0..COUNT {
                 f(&mut random, hash);
             }
@@ -55,7 +55,7 @@ fn evaluated<N: SampleNdf>(record: &mut Record, of: &str, surface: &N) {
 
 fn sampled<N: SampleVndf>(record: &mut Record, of: &str, surface: &N) {
     record.group(format!("{of} {} sample_vndf", name::<N::Scalar>()), |hash| {
-        let mut random = Random::new(2);
+        let mut random = Random(2);
         for _ in 0..COUNT {
             let (w, u) = (random.anywhere::<N::Scalar>(), random.numbers::<N::Scalar>());
             hash.three::<N::Scalar>(surface.sample_vndf(w.into(), u.into()));
@@ -118,7 +118,7 @@ fn gtr<T: Real>(record: &mut Record) {
     let table = GtrTable::<T, 8>::new(l(1.5), l(1e-3)).unwrap();
     both(record, "heavy GTR of a table", &table.heavy_tailed(l(0.017)).unwrap());
     record.group(format!("GTR {} density and components", name::<T>()), |hash| {
-        let mut random = Random::new(3);
+        let mut random = Random(3);
         for _ in 0..200 {
             let (alpha, gamma) = (l(random.decades(-3.0, 0.0)), l(random.within(0.0, 10.0)));
             hash.add(Density::new(alpha, gamma).unwrap().d(random.anywhere::<T>().into()));
@@ -193,7 +193,7 @@ pub(crate) fn all<T: Real>(record: &mut Record) {
 fn walter<T: Real>(record: &mut Record) {
     record.group(format!("Beckmann {} fits of Walter", name::<T>()), |hash| {
         let surface = Beckmann::anisotropic(T::lit(0.3), T::lit(0.6)).unwrap();
-        let mut random = Random::new(4);
+        let mut random = Random(4);
         for _ in 0..COUNT {
             let w = random.anywhere::<T>().into();
             hash.all(&[surface.g1_walter2007(w), surface.lambda_walter2007(w)]);

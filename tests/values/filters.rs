@@ -6,7 +6,7 @@ use microsurface::filter::{
 };
 use microsurface::{Beckmann, Ggx, Gtr, Microsurface, Real, RoughnessMatrix};
 
-use crate::arguments::Random;
+use crate::random::Random;
 use crate::{Hash, Record, name};
 
 const COUNT: usize = 1000;
@@ -27,7 +27,7 @@ pub(crate) fn all<T: Real>(record: &mut Record) {
     let turned = Ggx::from_roughness_matrix(matrix);
     let mut each = |name: &str, seed: u64, count: usize, f: &dyn Fn(&mut Random, &mut Hash)| {
         record.group(format!("{name} {scalar}"), |hash| {
-            let mut random = Random::new(seed);
+            let mut random = Random(seed);
             for _ in 0..count {
                 f(&mut random, hash);
             }

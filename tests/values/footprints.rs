@@ -15,7 +15,7 @@ use microsurface::filter::ray::{FocusPlane, RayDifferential};
 use microsurface::filter::{Covariance, Footprint};
 use microsurface::frame::Frame;
 
-use crate::arguments::Random;
+use crate::random::Random;
 use crate::{Hash, Record, name};
 
 const COUNT: usize = 500;
@@ -77,7 +77,7 @@ pub(crate) fn all<T: Real>(record: &mut Record) {
     let (scalar, l) = (name::<T>(), T::lit);
     let mut each = |name: &str, seed: u64, f: &dyn Fn(&mut Random, &mut Hash)| {
         record.group(format!("{name} {scalar}"), |hash| {
-            let mut random = Random::new(seed);
+            let mut random = Random(seed);
             for _ in 0..COUNT {
                 f(&mut random, hash);
             }

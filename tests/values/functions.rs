@@ -10,7 +10,7 @@ use microsurface::transform::tension::{Mean, Mesh, Triangle, interpolated};
 use microsurface::transform::{jacobian_of_normals, jacobian_of_uv_map};
 use microsurface::{Ggx, Real, RoughnessMatrix};
 
-use crate::arguments::Random;
+use crate::random::Random;
 use crate::{Record, name};
 
 const COUNT: usize = 3000;
@@ -18,7 +18,7 @@ const COUNT: usize = 3000;
 macro_rules! of_one_number {
     ($record:expr, $t:ident, $($function:ident, $from:expr, $to:expr;)*) => {$(
         $record.group(concat!(stringify!($function), " ", stringify!($t)).into(), |hash| {
-            let mut random = Random::new(9);
+            let mut random = Random(9);
             for _ in 0..COUNT {
                 let x = $t::lit(if random.below(4) == 0 {
                     let sign = if $from < 0.0 && random.below(2) == 0 { -1.0 } else { 1.0 };
@@ -42,7 +42,7 @@ macro_rules! elementary_of {
             erf_inv, -1.0, 1.0; erfc_inv, 0.0, 2.0;
         }
         $record.group(concat!("others ", stringify!($t)).into(), |hash| {
-            let mut random = Random::new(10);
+            let mut random = Random(10);
             for _ in 0..COUNT {
                 let (x, y) = ($t::lit(random.within(-3.0, 3.0)), $t::lit(random.within(-3.0, 3.0)));
                 let (s, c) = e::sin_cos_turns(x);
@@ -64,7 +64,7 @@ pub(crate) fn elementary(record: &mut Record) {
 pub(crate) fn others<T: Real>(record: &mut Record) {
     let scalar = name::<T>();
     record.group(format!("frames {scalar}"), |hash| {
-        let mut random = Random::new(11);
+        let mut random = Random(11);
         for _ in 0..1000 {
             let (n, t, w) = (random.anywhere::<T>(), random.vector::<T>(), random.anywhere::<T>());
             for frame in [Frame::<T>::from_normal(n), Frame::<T>::from_normal_and_tangent(n, t)] {
@@ -80,7 +80,7 @@ pub(crate) fn others<T: Real>(record: &mut Record) {
         }
     });
     record.group(format!("artists' maps {scalar}"), |hash| {
-        let mut random = Random::new(12);
+        let mut random = Random(12);
         for _ in 0..1000 {
             let [r, a] = [random.within(0.01, 1.0), random.within(0.0, 0.99)].map(T::lit);
             hash.all(
@@ -94,7 +94,7 @@ pub(crate) fn others<T: Real>(record: &mut Record) {
         }
     });
     record.group(format!("roughness matrices {scalar}"), |hash| {
-        let mut random = Random::new(13);
+        let mut random = Random(13);
         for _ in 0..1000 {
             let [x, y] = [random.decades(-4.0, 1.0), random.decades(-4.0, 1.0)].map(T::lit);
             let matrix = RoughnessMatrix::rotated(x, y, T::lit(random.within(-3.0, 3.0))).unwrap();
@@ -111,7 +111,7 @@ pub(crate) fn others<T: Real>(record: &mut Record) {
 
 fn deformations<T: Real>(record: &mut Record) {
     record.group(format!("deformations {}", name::<T>()), |hash| {
-        let mut random = Random::new(14);
+        let mut random = Random(14);
         for _ in 0..500 {
             let m = T::matrix(random.matrix::<T>());
             let w = random.above::<T>();

@@ -17,6 +17,9 @@ mod distributions;
 mod filters;
 mod footprints;
 mod functions;
+#[path = "../random/mod.rs"]
+#[expect(dead_code, reason = "not every crate draws everything")]
+mod random;
 mod reflection;
 #[path = "../surfaces/mod.rs"]
 #[expect(dead_code, reason = "not every crate reads every column")]

@@ -6,7 +6,7 @@ use microsurface::fresnel::{Conductor, Dielectric, Fresnel, Perfect, Schlick, Sp
 use microsurface::glam;
 use microsurface::{Beckmann, Ggx, Gtr, Ndf, Real, SampleNdf, SampleVndf};
 
-use crate::arguments::Random;
+use crate::random::Random;
 use crate::{Record, name};
 
 const COUNT: usize = 1000;
@@ -20,7 +20,7 @@ where
     let one = Schlick::new(N::Scalar::lit(0.3)).unwrap();
     let brdf = RoughConductor::new(surface, one).sampled_by(sampling);
     record.group(format!("{of} {} reflection", name::<N::Scalar>()), |hash| {
-        let mut random = Random::new(5);
+        let mut random = Random(5);
         for _ in 0..COUNT {
             let [i, o] = [random.above::<N::Scalar>(), random.anywhere()].map(Into::into);
             hash.all(&[brdf.eval(i, o), brdf.pdf(i, o)]);
@@ -47,7 +47,7 @@ where
 
 fn terms<T: Real + Spectrum<Scalar = T>>(record: &mut Record) {
     record.group(format!("Fresnel {}", name::<T>()), |hash| {
-        let mut random = Random::new(6);
+        let mut random = Random(6);
         for _ in 0..5000 {
             let cos = T::lit(if random.below(4) == 0 { random.decades(-6.0, 0.0) } else { random.unit() });
             let (n, k) = (T::lit(random.decades(-1.0, 1.0)), T::lit(random.decades(-3.0, 1.5)));
@@ -66,7 +66,7 @@ fn gold(record: &mut Record) {
         let gold =
             Conductor::new(glam::Vec3::new(0.19, 0.54, 1.33), glam::Vec3::new(3.40, 2.23, 1.87)).unwrap();
         let brdf = RoughConductor::new(Ggx::anisotropic(0.1_f32, 0.3).unwrap(), gold);
-        let mut random = Random::new(7);
+        let mut random = Random(7);
         for _ in 0..COUNT {
             let [i, o] = [random.above::<f32>(), random.above()].map(Into::into);
             hash.three::<f32>(brdf.eval(i, o));
@@ -76,7 +76,7 @@ fn gold(record: &mut Record) {
 
 fn over_footprints<T: Real + Spectrum<Scalar = T>>(record: &mut Record) {
     record.group(format!("reflection over footprints {}", name::<T>()), |hash| {
-        let mut random = Random::new(8);
+        let mut random = Random(8);
         let ggx = RoughConductor::new(Ggx::isotropic(T::lit(0.02)).unwrap(), Schlick::new(T::HALF).unwrap());
         let beckmann =
             RoughConductor::new(Beckmann::isotropic(T::lit(0.3)).unwrap(), Schlick::new(T::HALF).unwrap());

@@ -8,6 +8,7 @@ use microsurface::gtr::table::GtrTable;
 use microsurface::{Gtr, Ndf, Real, SampleVndf};
 
 use super::{MASKING_GTR, number, rows, vector};
+use crate::worst::Worst;
 
 /// max |ΔG1| of a mask of `nodes` for α of at least `alpha`, whatever γ and the direction.
 struct Bound {
@@ -38,21 +39,6 @@ const BOUNDS: &[Bound] = &[
     bound(12, 0.01, 1.2e-9),
     bound(12, 0.1, 1.8e-12),
 ];
-
-#[derive(Default)]
-struct Worst {
-    error: f64,
-    at: String,
-}
-
-impl Worst {
-    fn see(&mut self, error: f64, at: impl FnOnce() -> String) {
-        // NaN is the worst.
-        if error.is_nan() || error.abs() > self.error {
-            (self.error, self.at) = (error.abs(), at());
-        }
-    }
-}
 
 fn surface<T: Real, const N: usize>(alpha: f64, gamma: f64) -> impl Ndf<Scalar = T> {
     Gtr::with_nodes::<N>(T::lit(alpha), T::lit(gamma)).unwrap()

@@ -7,8 +7,9 @@ use microsurface::{Beckmann, Ggx, Ndf, RoughnessMatrix, SampleNdf, SampleVndf};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-use super::{footprint, uniform};
+use super::footprint;
 use crate::quadrature::gauss_legendre;
+use crate::random::uniform;
 
 /// f(t + c) averaged over Gaussian c of covariance σ²ΔᵀΔ: the product rule of Gauss–Legendre within
 /// 8.5 standard deviations along each of the footprint's steps.

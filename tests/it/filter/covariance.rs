@@ -6,7 +6,8 @@ use microsurface::{Beckmann, Error, Ggx, Ndf, RoughnessMatrix};
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
-use super::{footprint, uniform};
+use super::footprint;
+use crate::random::uniform;
 
 #[test]
 fn determinants_of_thin_kernels_keep_their_digits() {

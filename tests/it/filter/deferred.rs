@@ -10,7 +10,7 @@ use microsurface::frame::Frame;
 use microsurface::glam::{DMat2, DVec2, DVec3, Vec2, Vec3};
 use rand_pcg::Pcg64Mcg;
 
-use super::uniform;
+use crate::random::uniform;
 
 fn random_footprint(random: &mut Pcg64Mcg, size: f64) -> Footprint<f64> {
     let mut step = || DVec2::new(uniform(random, -size, size), uniform(random, -size, size));

@@ -8,13 +8,9 @@ mod pixels;
 
 use microsurface::frame::Frame;
 use microsurface::glam::{DQuat, DVec2, DVec3};
-use rand::Rng;
 use rand_pcg::Pcg64Mcg;
 
-/// Uniform in [low, high).
-fn uniform(random: &mut Pcg64Mcg, low: f64, high: f64) -> f64 {
-    low + (high - low) * (random.next_u64() >> 11) as f64 * (0.5 * f64::EPSILON)
-}
+use crate::random::uniform;
 
 /// Uniform in a cube about 0.
 fn vector(random: &mut Pcg64Mcg, size: f64) -> DVec3 {

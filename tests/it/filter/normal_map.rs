@@ -9,7 +9,7 @@ use microsurface::glam::{DMat2, DVec2, DVec3, Vec2, Vec3};
 use microsurface::{Error, Ggx};
 use rand_pcg::Pcg64Mcg;
 
-use super::uniform;
+use crate::random::uniform;
 
 fn slopes(random: &mut Pcg64Mcg, count: usize, mean: DVec2, width: DVec2) -> Vec<DVec2> {
     let mut entry = |m: f64, w: f64| m + uniform(random, -w, w);

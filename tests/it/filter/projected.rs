@@ -7,8 +7,9 @@ use microsurface::glam::{DMat2, DVec2, DVec3, Vec2};
 use microsurface::{Beckmann, Error, Ggx, Linear, Microsurface, Ndf};
 use rand_pcg::Pcg64Mcg;
 
-use super::{matrix, uniform};
+use super::matrix;
 use crate::accuracy::{number, rows};
+use crate::random::uniform;
 use crate::scalar::Scalar;
 
 const TABLE: &str = include_str!("../../reference/filter_projected.tsv");

@@ -4,18 +4,13 @@
 use microsurface::glam::DMat2;
 use microsurface::ndf::Ndf;
 use microsurface::transform::Transformed;
-use rand::Rng;
 use rand_pcg::Pcg64Mcg;
 
-use super::{Worst, limit, plane};
+use super::{Checked, limit, plane};
+use crate::random::uniform;
 use crate::rows::{Distribution, Mask, Row};
 use crate::scalar::{dot, unit, vec3};
 use crate::surfaces::{Move, Spec, Surface, Widths};
-
-/// Uniform in [low, high).
-fn uniform(random: &mut Pcg64Mcg, low: f64, high: f64) -> f64 {
-    low + (high - low) * (random.next_u64() >> 11) as f64 * (0.5 * f64::EPSILON)
-}
 
 /// The columns of a matrix: rotation × diag × rotation with a ratio of up to 1e6, entries within
 /// ±10.
@@ -36,7 +31,7 @@ fn distribution(random: &mut Pcg64Mcg, index: usize) -> Distribution {
 
 /// One map: ∫D cos = 1, ∫D max(0, w·m) = σ, ∫D_w = 1 and the furnace ∫G1 D max(0, w·m) = w.z.
 fn see<N: Ndf<Scalar = f64>>(
-    worst: &mut [Worst; 4],
+    worst: &mut [Checked; 4],
     ndf: &N,
     spec: &Spec,
     w: [f64; 3],
@@ -58,7 +53,7 @@ fn see<N: Ndf<Scalar = f64>>(
 
 fn check(maps: usize) {
     let mut random = Pcg64Mcg::new(11);
-    let [mut exact, mut nodes, mut boxed]: [[Worst; 4]; 3] = Default::default();
+    let [mut exact, mut nodes, mut boxed]: [[Checked; 4]; 3] = Default::default();
     for index in 0..maps {
         let distribution = distribution(&mut random, index);
         let widths = if distribution.row.columns().own_width {

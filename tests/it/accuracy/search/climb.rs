@@ -11,6 +11,8 @@
 use rand::Rng as _;
 use rand_pcg::Pcg64Mcg;
 
+use crate::worst::Worst;
+
 /// How long to search.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Effort {
@@ -20,15 +22,6 @@ pub(crate) struct Effort {
     pub(crate) moves: usize,
     /// The best points, which are climbed again with sixteen times the moves.
     pub(crate) finalists: usize,
-}
-
-/// The worst that a search found.
-#[derive(Clone, Debug)]
-pub(crate) struct Worst<I> {
-    /// The largest value of the objective; +∞ where the objective was NaN.
-    pub(crate) value: f64,
-    /// The input that has it.
-    pub(crate) input: I,
 }
 
 /// The largest `objective` found over the inputs that `domain` makes of the points of [0, 1)ᴷ.
@@ -62,7 +55,7 @@ pub(crate) fn worst<const K: usize, I>(
             best = last;
         }
     }
-    Worst { value: best.0, input: domain(best.1) }
+    Worst { error: best.0, at: domain(best.1), count: 1 }
 }
 
 /// The best of a point and of what random moves reach from it.
@@ -108,15 +101,15 @@ fn narrow_peaks_are_found() {
     };
     let effort = Effort { starts: 20, moves: 200, finalists: 4 };
     let found = worst(effort, 1, |x: [f64; 3]| x, objective);
-    assert!(found.value >= 3.0, "{found:?}");
+    assert!(found.error >= 3.0, "{found:?}");
     // Moves alone, without a start close by, are not enough for a plateau: the test above can fail.
     let lost = worst(Effort { starts: 20, moves: 2, finalists: 0 }, 1, |x: [f64; 3]| x, objective);
-    assert!(lost.value < 0.0, "{lost:?}");
+    assert!(lost.error < 0.0, "{lost:?}");
 }
 
 #[test]
 fn no_number_is_the_worst() {
     let objective = |&x: &f64| if x > 0.25 && x < 0.26 { f64::NAN } else { x };
     let found = worst(Effort { starts: 50, moves: 20, finalists: 2 }, 1, |[x]: [f64; 1]| x, objective);
-    assert!(found.value == f64::INFINITY && (0.25..0.26).contains(&found.input), "{found:?}");
+    assert!(found.error == f64::INFINITY && (0.25..0.26).contains(&found.at), "{found:?}");
 }

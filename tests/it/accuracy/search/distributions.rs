@@ -4,10 +4,11 @@
 use microsurface::gtr::Density;
 use microsurface::{Beckmann, Ggx, Gtr, Ndf, Real};
 
-use super::climb::{Effort, Worst, worst};
+use super::climb::{Effort, worst};
 use super::oracle::{Given, Kind};
 use crate::accuracy::budget::bound;
 use crate::accuracy::{number, rows};
+use crate::worst::Worst;
 
 /// A function of a distribution.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -240,13 +241,13 @@ fn no_worse<T: Real>(effort: Effort) {
             worst(effort, 100 + seed as u64, |point| search.input::<T>(point), |input| search.error(input));
         let row = bound(search.name, search.domain());
         let bound = row.bounds[usize::from(!T::WIDENS)];
-        let input = &found.input;
+        let input = &found.at;
         assert!(
-            found.value <= bound && found.value > 0.25 * bound,
+            found.error <= bound && found.error > 0.25 * bound,
             "{} {}: {} ε at {input:?}; the budget is {bound}",
             search.name,
             search.domain(),
-            found.value,
+            found.error,
         );
     }
 }
@@ -254,7 +255,7 @@ fn no_worse<T: Real>(effort: Effort) {
 fn print_worst<T: Real>() {
     println!();
     for (seed, search) in SEARCHES.iter().enumerate() {
-        let Worst { value, input: Input { kind, alphas: [a, b], at: [x, y, z] } } =
+        let Worst { error: value, at: Input { kind, alphas: [a, b], at: [x, y, z] }, .. } =
             worst(LONG, 100 + seed as u64, |point| search.input::<T>(point), |input| search.error(input));
         let gamma = match kind {
             Kind::Gtr(gamma) => format!("{gamma}"),

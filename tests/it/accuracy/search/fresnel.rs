@@ -93,7 +93,7 @@ fn searched<T: Real + Spectrum<Scalar = T>>(effort: Effort) -> [(f64, Input<T>);
         |point| input::<T>(point, 8.9, true),
         |&[n, k, cos]| error(&[n, k, cos], Conductor::new(n, k).expect("positive").reflectance(cos)),
     );
-    [(dielectric.value, dielectric.input), (conductor.value, conductor.input)]
+    [(dielectric.error, dielectric.at), (conductor.error, conductor.at)]
 }
 
 fn within<T: Real + Spectrum<Scalar = T>>(effort: Effort) {

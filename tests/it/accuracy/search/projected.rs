@@ -112,13 +112,13 @@ fn errors<T: Real>(input: &Input<T>) -> [f64; 2] {
 fn within<T: Real>(effort: Effort, least: f64) {
     for (i, domain) in ["entries", "determinant"].into_iter().enumerate() {
         let found = worst(effort, 400 + i as u64, input::<T>, |input| errors(input)[i]);
-        println!("projected {domain}: {:.3} at {:?}", found.value, found.input);
+        println!("projected {domain}: {:.3} at {:?}", found.error, found.at);
         let bound = bound("projected", domain).bounds[usize::from(!T::WIDENS)];
         assert!(
-            found.value <= bound && found.value > least * bound,
+            found.error <= bound && found.error > least * bound,
             "{domain}: {} of {bound} at {:?}",
-            found.value,
-            found.input
+            found.error,
+            found.at
         );
     }
 }

@@ -8,7 +8,8 @@ use rand_pcg::Pcg64Mcg;
 use crate::accuracy::search::climb::{Effort, worst};
 use crate::accuracy::search::{LONG, SHORT};
 
-use super::{derivative, direction, half, near, rotation, uniform, vector};
+use super::{derivative, direction, half, near, rotation, vector};
+use crate::random::uniform;
 
 /// A frame, a point, an eye and a light, and how they move.
 struct Scene {
@@ -272,9 +273,9 @@ impl Single {
 fn steps_have_the_digits_of_what_they_are_made_of(effort: Effort) {
     for (i, bound) in [7.0, 3.0].into_iter().enumerate() {
         let found = worst(effort, 300 + i as u64, Single::new, |single| single.errors()[i]);
-        let Single { frame, directions, distances, motion } = &found.input;
-        println!("{i}: {} at {frame:?} {directions:?} {distances:?} {motion:?}", found.value);
-        assert!(found.value <= bound && found.value > 0.3 * bound, "{i}: {} of {bound}", found.value);
+        let Single { frame, directions, distances, motion } = &found.at;
+        println!("{i}: {} at {frame:?} {directions:?} {distances:?} {motion:?}", found.error);
+        assert!(found.error <= bound && found.error > 0.3 * bound, "{i}: {} of {bound}", found.error);
     }
 }
 

@@ -4,7 +4,8 @@ use microsurface::filter::jacobian::{Amplification, disk_to_slope, sphere_to_dis
 use microsurface::glam::{DMat2, DVec2, DVec3, Mat2, Vec3};
 use rand_pcg::Pcg64Mcg;
 
-use super::{derivative, direction, uniform};
+use super::{derivative, direction};
+use crate::random::uniform;
 use crate::strategies::at_radius;
 
 #[test]

@@ -8,7 +8,8 @@ use microsurface::frame::Frame;
 use microsurface::glam::{DVec2, DVec3};
 use rand_pcg::Pcg64Mcg;
 
-use super::{derivative, direction, half, rotation, uniform, vector};
+use super::{derivative, direction, half, rotation, vector};
+use crate::random::uniform;
 
 /// A place on a surface: the point, the geometric normal, the shading frame.
 struct Place {
