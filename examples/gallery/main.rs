@@ -2,8 +2,8 @@
 //! rendered with this crate and the tour's path tracer.
 //!
 //! `cargo run --release --example gallery` writes them to `target/gallery/` in less than a minute
-//! and prints what to look for, and two plots: what sets a transform apart from another width, and
-//! how much slopes add to the errors of a filter's derivatives. `-- --quick` makes small pictures
+//! and prints what to look for, and three plots: the lobes of the distributions, what sets a transform
+//! apart from another width, and how much slopes add to the errors of a filter's derivatives. `-- --quick` makes small pictures
 //! of few samples.
 //!
 //! Where to look: `plate.rs`, `bodies.rs` and `vases.rs` are a figure each, and their covers are
@@ -19,6 +19,7 @@ mod amplification;
 mod anisotropy;
 mod bodies;
 mod inset;
+mod lobes;
 mod mesh;
 mod plate;
 mod plot;
@@ -122,8 +123,10 @@ fn gallery(effort: Effort) -> Result<(), String> {
         }
     }
     let anisotropy = anisotropy::plot().map_err(|error| error.to_string())?;
+    let lobes = lobes::plot().map_err(|error| error.to_string())?;
     for (name, plot, look_for) in [
         ("anisotropy", anisotropy, anisotropy::LOOK_FOR),
+        ("lobes", lobes, lobes::LOOK_FOR),
         ("error_amplification", amplification::plot(), amplification::LOOK_FOR),
     ] {
         let path = Path::new(OUTPUT).join(name).with_extension("svg");

@@ -12,6 +12,8 @@
 //! | GTR, closed, γ ≤ 10 | 4.2 / 24 | 12 / 12 | 28 / 30 | 12 / 13 |
 //!
 //! The mask of GTR of real γ is within 8e-6 of the exact one ([`gtr::nodes`](crate::gtr::nodes)).
+//! Its error against its time, beside the spline of the paper:
+#![doc = include_str!("../../docs/gtr_mask.svg")]
 //!
 //! - **Constructors refuse**: NaN, infinities, singular matrices, α out of
 //!   [`alpha_range`](crate::roughness::alpha_range). The [`Error`](crate::Error) names parameter,

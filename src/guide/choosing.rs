@@ -17,8 +17,9 @@
 //! | a distribution of your own | [`your_own`](super::your_own) |
 //! | GTR sampled as in its papers | [`UniformMixture`](crate::bsdf::UniformMixture) |
 //!
-//! Lobes from left to right: GTR of γ = 0.5, 1, 1.5, GGX, GTR of γ = 3 and 4, Beckmann; α from 0.02
-//! at the back to 0.5 in front. `cargo run --release --example tour` renders the picture.
+//! The tail makes the difference: how fast D falls, here from its peak, all of α = 0.1. `cargo run
+//! --release --example tour` renders the same on spheres.
+#![doc = include_str!("../../docs/lobes.svg")]
 //!
 //! # Different materials in one table
 //! Under the most general map all surfaces of a distribution have one type.

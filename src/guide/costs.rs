@@ -17,4 +17,6 @@
 //! - Batches are compiled for three levels of vectors, for each type of material, into the caller's
 //!   crate; a program that uses two of each of fifteen types spends most of its code on them.
 //!
+#![doc = include_str!("../../docs/batch.svg")]
+//!
 //! `cargo run --release --example pareto` sets time against error for every choice there is.

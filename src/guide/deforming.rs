@@ -19,6 +19,10 @@
 //! - [`jacobian_of_uv_map`](crate::transform::jacobian_of_uv_map) gives M of a warp of the texture.
 //! - [`Transformed`](crate::transform::Transformed) moves any other distribution.
 //!
+//! A transform is not another α: it moves the tail with the core. Slopes along the direction in
+//! which a surface was drawn out, against those of the surface that has the α of the result:
+#![doc = include_str!("../../docs/anisotropy.svg")]
+//!
 //! `cargo run --release --example gallery` renders the figures of Atanasov, Koylazov, Dimov and
 //! Wilkie 2022, whose equations these are:
 //!

@@ -26,6 +26,10 @@
 //! assert!(chrome.eval_over(wi, wo, pixel) > 3.0 * chrome.eval(wi, wo));
 //! # Ok::<(), microsurface::Error>(())
 //! ```
+//! The error of the footprint itself grows in slopes, and not in the projected space
+//! ([`projected`](crate::filter::projected)):
+#![doc = include_str!("../../docs/error_amplification.svg")]
+//!
 //! `cargo run --release --example shimmer` measures every filter against 1024 samples per pixel.
 //! One sample filtered over its parallelogram has an RMSE of 0.068 on wavy water and 0.106 on a
 //! bumpy sphere; sixteen unfiltered samples have 0.160 and 0.315.

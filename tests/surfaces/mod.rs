@@ -17,7 +17,7 @@ pub(crate) struct Columns {
     pub(crate) name: &'static str,
     /// Whether the profile has a width α ≤ 1 of its own, below that of its map.
     pub(crate) own_width: bool,
-    /// The exponents γ of the tail (1 + q)^{−γ} that lists go through; ∞ where it is Gaussian.
+    /// The exponents γ of the tail that lists go through: 2 of GGX, ∞ where it is Gaussian.
     pub(crate) gammas: &'static [f64],
     /// The smallest and the largest γ.
     pub(crate) range: [f64; 2],
