@@ -54,6 +54,7 @@
 //! - `alloc` (implied by `std`): distributions and Fresnel terms in `Box` and `Arc`.
 //! - `serde`: materials written and read as named tables, checked as by the constructors: module
 //!   `stored`.
+//! - `verify`: a test kit for distributions and BSDFs of anybody; `proptest` adds its strategies.
 
 #![no_std]
 
@@ -89,6 +90,8 @@ pub mod roughness;
 pub mod stored;
 pub mod transform;
 mod vector;
+#[cfg(feature = "verify")]
+pub mod verify;
 
 pub use glam;
 

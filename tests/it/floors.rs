@@ -20,7 +20,7 @@ const FLOORS: [&[&str]; 17] = [
     &["filter"],
     &["bsdf"],
     &["batch"],
-    &["stored"],
+    &["stored", "verify"],
     &["guide"],
 ];
 

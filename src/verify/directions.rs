@@ -1,0 +1,390 @@
+//! A sampler of directions against its density: χ², and the test of Kolmogorov and Smirnov.
+
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec;
+use alloc::vec::Vec;
+use core::fmt::Write as _;
+
+use rand::Rng;
+
+use super::Kit;
+use super::arguments::Arguments;
+use super::float::{Float, dot, hex, wide};
+use super::integral::{Integral, Precision};
+use super::report::{Report, Verdict};
+use super::sphere::{Cells, Chart};
+use super::statistics::{Counted, count, kolmogorov, pearson, two_sided};
+
+/// A sampler and what it must agree with.
+pub(super) struct Sampler<'a, T> {
+    /// Where it is looked at from, for messages.
+    pub(super) view: String,
+    /// A direction and its weight, or none.
+    pub(super) sample: &'a dyn Fn([T; 2]) -> Option<([T; 3], f64)>,
+    /// The density by solid angle.
+    pub(super) density: &'a dyn Fn([f64; 3]) -> f64,
+    /// What the mean weight is the integral of, if weights mean something.
+    pub(super) integrand: Option<&'a dyn Fn([f64; 3]) -> f64>,
+    /// Whether some samples may be none.
+    pub(super) may_miss: bool,
+    /// Whether directions may be below the horizon.
+    pub(super) below: bool,
+}
+
+/// The names of the checks of one sampler.
+pub(super) struct Names {
+    pub(super) usable: &'static str,
+    pub(super) integral: &'static str,
+    pub(super) cells: &'static str,
+    pub(super) near: &'static str,
+    pub(super) around: &'static str,
+    pub(super) weights: &'static str,
+}
+
+/// Rows and columns of a hemisphere.
+const ROWS: usize = 32;
+const COLUMNS: usize = 6;
+/// The share of the noise of a cell that the error of its expectation may be.
+const SHARE_OF_NOISE: f64 = 0.05;
+
+/// Everything that is known of a hemisphere: its cells, and the integrals of density and integrand
+/// over them.
+struct Hemisphere {
+    cells: Cells,
+    integrals: Vec<Integral<2>>,
+    counts: Vec<usize>,
+}
+
+impl Hemisphere {
+    fn new<T: Float>(sampler: &Sampler<'_, T>, pilot: &[[f64; 3]], upper: bool, samples: f64) -> Self {
+        let in_it: Vec<[f64; 3]> = pilot.iter().copied().filter(|d| (d[2] >= 0.0) == upper).collect();
+        let up = [0.0, 0.0, if upper { 1.0 } else { -1.0 }];
+        // The peak is where the density is largest.
+        let peak = in_it.iter().copied().map(|d| ((sampler.density)(d), d)).filter(|(p, _)| p.is_finite());
+        let peak = peak.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(up, |(_, d)| d);
+        // At the horizon itself there is no hemisphere about the peak.
+        let peak = if peak[2].abs() < 1e-6 { [peak[0], peak[1], 1e-6 * up[2]] } else { peak };
+        let (rows, columns) = if in_it.len() < 2000 { (4, 2) } else { (ROWS, COLUMNS) };
+        let cells = Cells::new(Chart::new(peak, upper), &in_it, rows, columns);
+        let expected = 1.0 / count(cells.len());
+        let absolute = SHARE_OF_NOISE * (expected / samples).sqrt();
+        let precision = Precision { absolute: absolute.min(1e-3 * expected), relative: 0.0, panels: 40 };
+        let integrand = |d: [f64; 3]| [(sampler.density)(d), sampler.integrand.map_or(0.0, |f| f(d))];
+        let integrals =
+            cells.cells().map(|(_, cell)| cells.chart.integral(integrand, &cell, precision)).collect();
+        let counts = vec![0; cells.len()];
+        Self { cells, integrals, counts }
+    }
+}
+
+/// The running mean and variance of weights (Welford 1962), and the largest.
+#[derive(Default)]
+struct Weights {
+    n: f64,
+    mean: f64,
+    squares: f64,
+    largest: f64,
+}
+
+impl Weights {
+    fn add(&mut self, weight: f64) {
+        self.n += 1.0;
+        let difference = weight - self.mean;
+        self.mean += difference / self.n;
+        self.squares += difference * (weight - self.mean);
+        self.largest = self.largest.max(weight.abs());
+    }
+
+    fn standard_error(&self) -> f64 {
+        (self.squares / (self.n * (self.n - 1.0))).sqrt()
+    }
+
+    /// Whether the mean of n such weights is normal: no weight alone makes a tenth of the variance.
+    fn is_normal(&self) -> bool {
+        let largest = self.largest - self.mean;
+        largest * largest <= 0.1 * self.squares.max(f64::MIN_POSITIVE)
+    }
+}
+
+impl Kit {
+    /// χ², Kolmogorov–Smirnov, the integral of the density and the mean weight of one sampler. Gives
+    /// the integral of the integrand over each hemisphere, with its bound.
+    pub(super) fn sampler<T: Float>(
+        &self,
+        report: &mut Report,
+        sampler: &Sampler<'_, T>,
+        names: &Names,
+        arguments: &mut Arguments<impl Rng>,
+    ) -> Vec<(bool, [f64; 2])> {
+        let pilot: Vec<[f64; 3]> = (0..(self.samples / 4).clamp(2000, 20_000))
+            .filter_map(|_| (sampler.sample)(arguments.point()))
+            .map(|(d, _)| wide(d))
+            .filter(|d| d.iter().all(|c| c.is_finite()))
+            .collect();
+        let n = count(self.samples);
+        let sides: &[bool] = if sampler.below { &[true, false] } else { &[true] };
+        let mut hemispheres: Vec<Hemisphere> =
+            sides.iter().map(|&upper| Hemisphere::new(sampler, &pilot, upper, n)).collect();
+
+        let (mut unusable, mut missed, mut weights) = (None, 0, Weights::default());
+        for _ in 0..self.samples {
+            let u = arguments.point::<T>();
+            let Some((direction, weight)) = (sampler.sample)(u) else {
+                missed += 1;
+                weights.add(0.0);
+                continue;
+            };
+            weights.add(weight);
+            let d = wide(direction);
+            let fault = self.fault::<T>(sampler, d, weight);
+            if let Some(fault) = fault {
+                unusable.get_or_insert_with(|| format!("{fault}: {} of u {}", hex(&direction), hex(&u)));
+            }
+            let side = usize::from(sampler.below && d[2] < 0.0);
+            if d.iter().all(|c| c.is_finite()) {
+                let index = hemispheres[side].cells.index(d);
+                hemispheres[side].counts[index] += 1;
+            }
+        }
+        if missed > 0 && !sampler.may_miss {
+            unusable.get_or_insert_with(|| format!("{missed} of {} samples are none", self.samples));
+        }
+        let verdict = if unusable.is_some() { Verdict::Failed } else { Verdict::Passed };
+        report.push_verdict(names.usable, verdict, unusable.unwrap_or_else(|| sampler.view.clone()));
+        self.integral_of_density(report, sampler, names, &hemispheres, missed);
+        self.counts::<T>(report, sampler, names, &hemispheres, missed);
+        if sampler.integrand.is_some() {
+            mean_weight(report, sampler, names, &hemispheres, &weights);
+        }
+        let integrals = |h: &Hemisphere| (h.cells.chart.upper, total(core::slice::from_ref(h)).pair(1));
+        hemispheres.iter().map(integrals).collect()
+    }
+
+    /// What is wrong with a sample by itself.
+    fn fault<T: Float>(&self, sampler: &Sampler<'_, T>, d: [f64; 3], weight: f64) -> Option<&'static str> {
+        let density = (sampler.density)(d);
+        if d.iter().any(|c| !c.is_finite()) {
+            Some("not finite")
+        } else if (dot(d, d) - 1.0).abs() > 64.0 * T::EPSILON.to_f64() {
+            Some("not of unit length")
+        } else if d[2] < 0.0 && !sampler.below {
+            Some("below the horizon")
+        } else if !weight.is_finite() || weight < 0.0 {
+            Some("its weight is negative or not finite")
+        } else if density.is_nan() || density <= 0.0 {
+            Some("its density is 0 or not a number")
+        } else {
+            None
+        }
+    }
+
+    /// ∫ density is 1, or what the samples that are none leave.
+    fn integral_of_density<T: Float>(
+        &self,
+        report: &mut Report,
+        sampler: &Sampler<'_, T>,
+        names: &Names,
+        hemispheres: &[Hemisphere],
+        missed: usize,
+    ) {
+        let total = total(hemispheres);
+        let [value, bound] = total.pair(0);
+        let n = count(self.samples);
+        let expected = 1.0 - count(missed) / n;
+        let at = format!("∫ = {value:.6} ± {bound:.0e}, {expected:.6} of the samples, {}", sampler.view);
+        if !(bound <= 0.5) {
+            report.push_verdict(names.integral, Verdict::Undecided, at);
+        } else if missed == 0 && !sampler.may_miss || value - bound > 1.0 + self.tolerance::<T>() {
+            let off = ((value - 1.0).abs() - bound).max(0.0);
+            let mut seen = super::report::Seen::default();
+            // Half of the digits of the quadrature of the cells.
+            seen.see(off, || at);
+            report.push(names.integral, seen, self.tolerance::<T>().max(1e-5));
+        } else {
+            // The share of none is binomial; one more sample keeps the error of none from 0.
+            let share = (value.clamp(0.0, 1.0) * (1.0 - value).clamp(0.0, 1.0)).max(1.0 / n);
+            let error = (share / n).sqrt().hypot(bound).hypot(self.tolerance::<T>());
+            report.push_p_value(names.integral, two_sided((value - expected) / error), at, String::new());
+        }
+    }
+
+    fn counts<T: Float>(
+        &self,
+        report: &mut Report,
+        sampler: &Sampler<'_, T>,
+        names: &Names,
+        hemispheres: &[Hemisphere],
+        missed: usize,
+    ) {
+        let n = count(self.samples);
+        let mass = total(hemispheres).value[0];
+        let mut cells: Vec<Counted> = Vec::new();
+        let mut unresolved = 0;
+        for hemisphere in hemispheres {
+            for (integral, &observed) in hemisphere.integrals.iter().zip(&hemisphere.counts) {
+                let [p, bound] = integral.pair(0);
+                let expected = n * p;
+                unresolved += usize::from(!(n * bound <= 0.5 * expected.max(5.0).sqrt()));
+                cells.push(Counted { observed: count(observed), expected });
+            }
+        }
+        if sampler.may_miss {
+            cells.push(Counted { observed: count(missed), expected: (n * (1.0 - mass)).max(0.0) });
+        }
+        let (statistic, dof, p) = pearson(&cells);
+        let at = format!("χ² = {statistic:.0} of {dof} degrees of freedom, {}", sampler.view);
+        let details = table(sampler, hemispheres, n, missed, mass);
+        let undecided = unresolved > 0;
+        report.push_p_value(names.cells, p, at, details);
+        let judged = |report: &mut Report| {
+            if let (true, Some(check)) = (undecided, report.checks.last_mut()) {
+                check.verdict = Verdict::Undecided;
+                check.at = format!("no quadrature of {unresolved} cells, {}", check.at);
+            }
+        };
+        judged(report);
+        let (near, around) = marginals(hemispheres, n);
+        for (name, distance) in [(names.near, near), (names.around, around)] {
+            let at = format!("largest distance {distance:.5}, {}", sampler.view);
+            report.push_p_value(name, kolmogorov(n, distance), at, String::new());
+            judged(report);
+        }
+    }
+}
+
+/// The integrals over all cells.
+fn total(hemispheres: &[Hemisphere]) -> Integral<2> {
+    let mut total = Integral::ZERO;
+    hemispheres.iter().flat_map(|h| &h.integrals).for_each(|integral| total.add(integral));
+    total
+}
+
+/// The largest distances of the distribution functions at the edges of the rows, and of the columns
+/// of all rows together. The distance at some points is at most that of all: the p-value is not too
+/// small.
+fn marginals(hemispheres: &[Hemisphere], n: f64) -> (f64, f64) {
+    let (mut near, mut around) = (0.0_f64, 0.0_f64);
+    for hemisphere in hemispheres {
+        let cells: Vec<_> = hemisphere.cells.cells().collect();
+        let differences: Vec<f64> = hemisphere
+            .integrals
+            .iter()
+            .zip(&hemisphere.counts)
+            .map(|(integral, &observed)| count(observed) / n - integral.value[0])
+            .collect();
+        let (mut sum, mut row) = (0.0, 0);
+        for ((at, _), difference) in cells.iter().zip(&differences) {
+            if *at != row {
+                (near, row) = (near.max(f64::abs(sum)), *at);
+            }
+            sum += difference;
+        }
+        // Columns are cut at other azimuths in every row: by rank they are the same share.
+        let mut by_column = [0.0; COLUMNS];
+        let mut column = 0;
+        let mut last = usize::MAX;
+        for ((row, _), difference) in cells.iter().zip(&differences) {
+            column = if *row == last { column + 1 } else { 0 };
+            last = *row;
+            by_column[column.min(COLUMNS - 1)] += difference;
+        }
+        let mut sum = 0.0;
+        for difference in &by_column[..COLUMNS - 1] {
+            sum += difference;
+            around = around.max(f64::abs(sum));
+        }
+    }
+    (near, around)
+}
+
+/// E[weight] = ∫ f |cos|.
+fn mean_weight<T>(
+    report: &mut Report,
+    sampler: &Sampler<'_, T>,
+    names: &Names,
+    hemispheres: &[Hemisphere],
+    weights: &Weights,
+) {
+    let [value, bound] = total(hemispheres).pair(1);
+    let standard = weights.standard_error();
+    let error = standard.hypot(bound).max(1e-6 * value.abs()).max(f64::MIN_POSITIVE);
+    let at = format!(
+        "mean weight {:.6} ± {standard:.0e}, ∫ f cos = {value:.6} ± {bound:.0e}, {}",
+        weights.mean, sampler.view
+    );
+    report.push_p_value(names.weights, two_sided((weights.mean - value) / error), at, String::new());
+    // What is not known to a tenth of itself, or is the sum of a few weights, is not known.
+    let unknown = !(bound <= 0.1 * value.abs().max(1e-12)) || !weights.is_normal();
+    if let (true, Some(check)) = (unknown, report.checks.last_mut()) {
+        check.verdict = Verdict::Undecided;
+    }
+}
+
+/// The cells that deviate most, and a map of all: a row for each distance from the peak, a column
+/// for each part of the azimuth.
+fn table<T>(
+    sampler: &Sampler<'_, T>,
+    hemispheres: &[Hemisphere],
+    n: f64,
+    missed: usize,
+    mass: f64,
+) -> String {
+    let mut text = String::new();
+    let sigma = |observed: usize, expected: f64| (count(observed) - expected) / expected.max(1.0).sqrt();
+    for hemisphere in hemispheres {
+        let side = if hemisphere.cells.chart.upper { "above" } else { "below" };
+        let cells: Vec<_> = hemisphere.cells.cells().collect();
+        let mut worst: Vec<(f64, usize)> = (0..cells.len())
+            .map(|i| (sigma(hemisphere.counts[i], n * hemisphere.integrals[i].value[0]), i))
+            .collect();
+        let _ = writeln!(
+            text,
+            "  {side} the horizon, from the peak (top) outwards; observed − expected in standard deviations:"
+        );
+        let mut row = usize::MAX;
+        for (deviation, i) in &worst {
+            if cells[*i].0 != row {
+                row = cells[*i].0;
+                let s = cells[*i].1.s;
+                let degrees = |s: f64| 2.0 * s.exp().atan().to_degrees();
+                let _ = write!(text, "\n    {:>9.3}°…{:<9.3}° ", degrees(s[0]), degrees(s[1]));
+            }
+            let _ = write!(text, "{}", shade(*deviation));
+        }
+        text.push('\n');
+        worst.sort_by(|a, b| b.0.abs().total_cmp(&a.0.abs()));
+        for (deviation, i) in worst.iter().take(4) {
+            let (_, cell) = cells[*i];
+            let middle = |[low, high]: [f64; 2]| 0.5 * (low + high);
+            let (d, _) = hemisphere.cells.chart.direction(middle(cell.s).clamp(-20.0, 3.0), middle(cell.phi));
+            let _ = writeln!(
+                text,
+                "    about ({:+.3}, {:+.3}, {:+.3}): observed {}, expected {:.1}, {deviation:+.1} σ{}",
+                d[0],
+                d[1],
+                d[2],
+                hemisphere.counts[*i],
+                n * hemisphere.integrals[*i].value[0],
+                if d[2].abs() < 0.1 { ", grazing" } else { "" }
+            );
+        }
+    }
+    if sampler.may_miss {
+        let expected = (n * (1.0 - mass)).max(0.0);
+        let _ = writeln!(text, "  no direction: observed {missed}, expected {expected:.1}");
+    }
+    text
+}
+
+/// A deviation as one character: + and # for too many, - and = for too few.
+fn shade(deviation: f64) -> String {
+    match deviation {
+        d if d > 10.0 => "#",
+        d if d > 3.5 => "+",
+        d if d < -10.0 => "=",
+        d if d < -3.5 => "-",
+        _ => "·",
+    }
+    .to_string()
+}
