@@ -77,6 +77,8 @@ pub struct Kit {
     false_alarms: f64,
     tolerance: Option<f64>,
     angles: &'static [f64],
+    merciless: bool,
+    progress: bool,
 }
 
 impl Default for Kit {
@@ -95,6 +97,8 @@ impl Kit {
             false_alarms: 1e-4,
             tolerance: None,
             angles: &[0.0, 30.0, 60.0, 80.0],
+            merciless: false,
+            progress: false,
         }
     }
 
@@ -130,12 +134,27 @@ impl Kit {
         Self { angles: degrees, ..self }
     }
 
+    /// Arguments down to the smallest subnormal components, where the squares of renderers' code
+    /// leave the range of the scalar.
+    #[must_use]
+    pub const fn merciless(self) -> Self {
+        Self { merciless: true, ..self }
+    }
+
+    /// Says on stderr which sampler is being drawn from.
+    #[must_use]
+    pub const fn showing_progress(self) -> Self {
+        Self { progress: true, ..self }
+    }
+
     fn tolerance<T: Float>(&self) -> f64 {
         self.tolerance.unwrap_or(if T::EPSILON.to_f64() > 1e-10 { 2e-5 } else { 1e-6 })
     }
 
     fn arguments(&self, stream: u64) -> Arguments<Pcg64Mcg> {
-        Arguments(Pcg64Mcg::new(u128::from(self.seed) << 64 | u128::from(stream.wrapping_mul(2) | 1)))
+        let state = u128::from(self.seed) << 64 | u128::from(stream.wrapping_mul(2) | 1);
+        let arguments = Arguments::new(Pcg64Mcg::new(state));
+        if self.merciless { arguments.merciless() } else { arguments }
     }
 
     /// The views, rounded to the scalar.

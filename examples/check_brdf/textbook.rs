@@ -131,11 +131,14 @@ impl ClearCoat {
             return 0.0;
         }
         let h = (wi + wo).normalize();
-        let all = self.d(h) * h.z;
+        let all = if wo.dot(h) > 0.0 { self.d(h) * h.z } else { return 0.0 };
         if self.mistake == Mistake::NoJacobianOfClearCoat { all } else { all / (4.0 * wo.dot(h)) }
     }
 
     pub(crate) fn sample(&self, wo: DVec3, u: [f64; 2]) -> Sample {
+        if wo.z <= 0.0 {
+            return None;
+        }
         let a2 = self.alpha * self.alpha;
         let z2 = (1.0 - a2.powf(1.0 - u[0])) / (1.0 - a2);
         let (r, (sin, cos)) = ((1.0 - z2).max(0.0).sqrt(), (TAU * u[1]).sin_cos());
@@ -145,7 +148,7 @@ impl ClearCoat {
             return None;
         }
         let pdf = self.pdf(wi, wo);
-        Some((wi, self.eval(wi, wo) * wi.z / pdf, pdf))
+        (pdf > 0.0).then(|| (wi, self.eval(wi, wo) * wi.z / pdf, pdf))
     }
 }
 

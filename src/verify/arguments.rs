@@ -6,30 +6,41 @@ use rand::Rng;
 
 use super::float::Float;
 
-/// Arguments for a BSDF or a distribution, drawn where such code breaks: grazing to the last ulp,
-/// poles, subnormal components, wi ≈ ±wo, numbers at both ends.
+/// Arguments for a BSDF or a distribution, drawn where such code breaks: grazing, poles, wi ≈ ±wo,
+/// numbers at both ends.
 ///
 /// # Example
 /// ```
 /// use microsurface::verify::Arguments;
 /// use rand_pcg::Pcg64Mcg;
-/// let mut arguments = Arguments(Pcg64Mcg::new(1));
+/// let mut arguments = Arguments::new(Pcg64Mcg::new(1));
 /// let wo = arguments.direction::<f32>();
 /// let wi = arguments.partner(wo);
 /// let u = arguments.numbers::<f32>();
 /// assert!(wo[2] >= 0.0 && wi[2] >= 0.0 && u.iter().all(|u| (0.0..1.0).contains(u)));
 /// ```
 #[derive(Debug, Clone)]
-pub struct Arguments<R>(
-    /// The generator.
-    pub R,
-);
+pub struct Arguments<R> {
+    random: R,
+    merciless: bool,
+}
 
 impl<R: Rng> Arguments<R> {
+    /// Arguments from a generator. Components of directions are 0, or at least about ε².
+    pub const fn new(random: R) -> Self {
+        Self { random, merciless: false }
+    }
+
+    /// The same with components down to the smallest subnormal number.
+    #[must_use]
+    pub fn merciless(self) -> Self {
+        Self { merciless: true, ..self }
+    }
+
     /// Uniform in [0, 1).
     #[expect(clippy::cast_precision_loss, reason = "53 bits")]
     pub fn uniform(&mut self) -> f64 {
-        (self.0.next_u64() >> 11) as f64 * (0.5 * f64::EPSILON)
+        (self.random.next_u64() >> 11) as f64 * (0.5 * f64::EPSILON)
     }
 
     /// Uniform in [low, high).
@@ -43,7 +54,7 @@ impl<R: Rng> Arguments<R> {
     }
 
     fn below(&mut self, n: u32) -> u32 {
-        self.0.next_u32() % n
+        self.random.next_u32() % n
     }
 
     /// A few ulps either way.
@@ -52,15 +63,25 @@ impl<R: Rng> Arguments<R> {
         self.below(9) as i32 - 4
     }
 
+    /// The decade of the smallest component.
+    fn smallest<T: Float>(&self) -> f64 {
+        if self.merciless {
+            T::TINIEST.to_f64().max(f64::MIN_POSITIVE).log10()
+        } else {
+            2.0 * T::EPSILON.to_f64().log10()
+        }
+    }
+
     /// A unit vector on or above the horizon.
     #[expect(clippy::cast_possible_wrap, reason = "below 64")]
     pub fn direction<T: Float>(&mut self) -> [T; 3] {
         let phi =
             if self.below(4) == 0 { f64::from(self.below(8)) * TAU / 8.0 } else { TAU * self.uniform() };
-        let smallest = T::TINIEST.to_f64().max(f64::MIN_POSITIVE).log10();
+        let smallest = self.smallest::<T>();
         let (z, r) = match self.below(8) {
             0 => {
-                let z = T::ZERO.stepped(self.below(64) as i32);
+                let steps = self.below(64) as i32;
+                let z = if self.merciless { T::ZERO.stepped(steps) } else { T::ZERO };
                 return [T::lit(phi.cos()), T::lit(phi.sin()), z];
             }
             1 => {
@@ -93,6 +114,7 @@ impl<R: Rng> Arguments<R> {
             2 => [-x, -y, z],
             3 if x != T::ZERO || y != T::ZERO => {
                 let z = z.to_f64() * self.decades(-9.0, 0.0);
+                let z = if self.merciless { z } else { z.max(10_f64.powf(self.smallest::<T>())) };
                 let radius = ((1.0 - z) * (1.0 + z)).max(0.0).sqrt() / x.to_f64().hypot(y.to_f64());
                 let [x, y, z] = [-radius * x.to_f64(), -radius * y.to_f64(), z].map(T::lit);
                 [x.stepped(self.ulps()), y.stepped(self.ulps()), z]

@@ -5,10 +5,11 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::cell::RefCell;
 use core::marker::PhantomData;
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use core::panic::AssertUnwindSafe;
+use std::panic::catch_unwind;
 
 use super::directions::{Names, Sampler};
-use super::float::{Float, dot, hex, narrow, wide};
+use super::float::{Float, dot, hex, narrow, relative, view, wide};
 use super::report::{Report, Seen, Verdict};
 use super::{ARGUMENTS, Kit};
 use crate::real::Vector;
@@ -117,16 +118,23 @@ where
     }
 }
 
+/// A direction, its weight and its pdf.
+type Drawn<T> = Option<([T; 3], T, T)>;
+
 /// The closures at arguments in f64, with what went wrong in them.
 struct Tested<'a, T> {
     eval: &'a dyn Fn([T; 3], [T; 3]) -> T,
     pdf: &'a dyn Fn([T; 3], [T; 3]) -> T,
-    sample: &'a dyn Fn([T; 3], [T; 2]) -> Option<([T; 3], T, T)>,
+    sample: &'a dyn Fn([T; 3], [T; 2]) -> Drawn<T>,
     panicked: RefCell<Option<String>>,
 }
 
 impl<T: Float> Tested<'_, T> {
     fn caught<R>(&self, what: &str, at: impl Fn() -> String, call: impl FnOnce() -> R) -> Option<R> {
+        if self.panicked.borrow().is_some() {
+            // Once is enough.
+            return None;
+        }
         let result = catch_unwind(AssertUnwindSafe(call)).ok();
         if result.is_none() {
             self.panicked.borrow_mut().get_or_insert_with(|| format!("{what} panicked at {}", at()));
@@ -202,7 +210,7 @@ impl Kit {
             isotropic: bsdf.isotropic,
             reciprocal: bsdf.reciprocal,
             eta: bsdf.eta,
-            both: bsdf.sides == Sides::Both,
+            sides: bsdf.sides,
         };
         let mut report = Report::new(self.false_alarms);
         self.every_argument(&mut report, &tested, about);
@@ -222,10 +230,14 @@ struct About {
     isotropic: bool,
     reciprocal: bool,
     eta: Option<f64>,
-    both: bool,
+    sides: Sides,
 }
 
 impl About {
+    fn both(self) -> bool {
+        self.sides == Sides::Both
+    }
+
     /// The index of the side that a direction is on.
     fn index(self, w: [f64; 3]) -> f64 {
         if w[2] < 0.0 { self.eta.unwrap_or(1.0) } else { 1.0 }
@@ -241,20 +253,20 @@ impl Kit {
     fn every_view<T: Float>(&self, report: &mut Report, tested: &Tested<'_, T>, about: About) {
         let mut arguments = self.arguments(5);
         let mut views = self.views::<T>(&mut arguments);
-        if about.both {
+        if about.both() {
             let below: Vec<[T; 3]> = views.iter().map(|&[x, y, z]| [x, y, -z]).collect();
             views.extend(below);
         }
         let mut furnace = Seen::default();
         for wo in views {
-            let view = format!("wo {}", hex(&wo));
+            let view = view(wo);
             let sampler = Sampler {
                 view: view.clone(),
                 sample: &|u| tested.sample(wo, u).map(|(wi, weight, _)| (wi, weight)),
                 density: &|wi| tested.pdf(narrow(wi), wo),
                 integrand: Some(&|wi| about.with_cos(tested.eval(narrow(wi), wo), wi)),
                 may_miss: true,
-                below: about.both,
+                below: about.both(),
             };
             let sides = self.sampler(report, &sampler, &SAMPLES, &mut arguments);
             // In equilibrium radiance is proportional to the square of the index.
@@ -280,7 +292,7 @@ impl Kit {
         for i in 0..ARGUMENTS {
             let mut wo = arguments.direction::<T>();
             let mut wi = arguments.partner(wo);
-            if about.both && i % 2 == 1 {
+            if about.both() && i % 2 == 1 {
                 wo[2] = -wo[2];
             }
             if about.eta.is_some() && i % 3 == 1 {
@@ -306,14 +318,10 @@ impl Kit {
             let f = |wi: [T; 3], wo: [T; 3]| {
                 tested.eval(wi, wo) / if about.with_cosine { wi[2].to_f64().abs() } else { 1.0 }
             };
-            let off = |a: f64, b: f64| {
-                let (off, size) = ((a - b).abs(), a.abs().max(b.abs()));
-                if off <= 64.0 * T::MIN_POSITIVE.to_f64() { 0.0 } else { off / size }
-            };
             let value = f(wi, wo);
             if about.reciprocal {
                 let square = |w: [T; 3]| about.index(wide(w)) * about.index(wide(w));
-                let deviation = off(value * square(wi), f(wo, wi) * square(wo));
+                let deviation = relative::<T>(value * square(wi), f(wo, wi) * square(wo));
                 if deviation > 0.0 {
                     let slack = 8.0 * Tested::spread(wi, wo, f);
                     reciprocal.see((deviation - slack).max(0.0), at);
@@ -325,8 +333,8 @@ impl Kit {
                 // A quarter of a turn, and the mirror image, are exact.
                 let turned = |[x, y, z]: [T; 3]| [-y, x, z];
                 let mirrored = |[x, y, z]: [T; 3]| [x, -y, z];
-                let deviation =
-                    off(value, f(turned(wi), turned(wo))).max(off(value, f(mirrored(wi), mirrored(wo))));
+                let deviation = relative::<T>(value, f(turned(wi), turned(wo)))
+                    .max(relative::<T>(value, f(mirrored(wi), mirrored(wo))));
                 let slack = if deviation > 0.0 { 8.0 * Tested::spread(wi, wo, f) } else { 0.0 };
                 symmetric.see((deviation - slack).max(0.0), at);
             }
@@ -356,7 +364,7 @@ impl Kit {
                 let w = [view.sin() * phi.cos(), view.sin() * phi.sin(), view.cos()];
                 (narrow(w), arguments.point::<T>())
             };
-            if about.both && i % 4 > 1 {
+            if about.both() && i % 4 > 1 {
                 wo[2] = -wo[2];
             }
             let Some((wi, weight, own)) = tested.sample(wo, u) else { continue };
@@ -373,14 +381,13 @@ impl Kit {
                 continue;
             }
             let (pdf, f) = (tested.pdf(wi, wo), tested.eval(wi, wo));
-            let off = |a: f64, b: f64| if a == b { 0.0 } else { (a - b).abs() / a.abs().max(b.abs()) };
             let slack = |f: &dyn Fn([T; 3], [T; 3]) -> f64| 4.0 * Tested::spread(wi, wo, f);
             let allowed = self.tolerance::<T>();
-            let off_pdf = off(own, pdf);
+            let off_pdf = relative::<T>(own, pdf);
             let excess = if off_pdf > allowed { off_pdf - slack(&|i, o| tested.pdf(i, o)) } else { off_pdf };
             pdfs.see(excess.max(0.0), || format!("returned {own:e}, pdf {pdf:e}, {}", at()));
             let expected = about.with_cos(f, d) / pdf;
-            let off_weight = off(weight, expected);
+            let off_weight = relative::<T>(weight, expected);
             let excess = if off_weight > allowed {
                 off_weight - slack(&|i, o| about.with_cos(tested.eval(i, o), wide(i)) / tested.pdf(i, o))
             } else {

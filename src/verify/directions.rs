@@ -10,7 +10,7 @@ use rand::Rng;
 
 use super::Kit;
 use super::arguments::Arguments;
-use super::float::{Float, dot, hex, wide};
+use super::float::{Float, dot, hex, wide, within};
 use super::integral::{Integral, Precision};
 use super::report::{Report, Verdict};
 use super::sphere::{Cells, Chart};
@@ -117,6 +117,9 @@ impl Kit {
         names: &Names,
         arguments: &mut Arguments<impl Rng>,
     ) -> Vec<(bool, [f64; 2])> {
+        if self.progress {
+            std::eprintln!("{} samples, {}", self.samples, sampler.view);
+        }
         let pilot: Vec<[f64; 3]> = (0..(self.samples / 4).clamp(2000, 20_000))
             .filter_map(|_| (sampler.sample)(arguments.point()))
             .map(|(d, _)| wide(d))
@@ -137,8 +140,7 @@ impl Kit {
             };
             weights.add(weight);
             let d = wide(direction);
-            let fault = self.fault::<T>(sampler, d, weight);
-            if let Some(fault) = fault {
+            if let Some(fault) = fault(sampler, d, weight) {
                 unusable.get_or_insert_with(|| format!("{fault}: {} of u {}", hex(&direction), hex(&u)));
             }
             let side = usize::from(sampler.below && d[2] < 0.0);
@@ -161,24 +163,6 @@ impl Kit {
         hemispheres.iter().map(integrals).collect()
     }
 
-    /// What is wrong with a sample by itself.
-    fn fault<T: Float>(&self, sampler: &Sampler<'_, T>, d: [f64; 3], weight: f64) -> Option<&'static str> {
-        let density = (sampler.density)(d);
-        if d.iter().any(|c| !c.is_finite()) {
-            Some("not finite")
-        } else if (dot(d, d) - 1.0).abs() > 64.0 * T::EPSILON.to_f64() {
-            Some("not of unit length")
-        } else if d[2] < 0.0 && !sampler.below {
-            Some("below the horizon")
-        } else if !weight.is_finite() || weight < 0.0 {
-            Some("its weight is negative or not finite")
-        } else if density.is_nan() || density <= 0.0 {
-            Some("its density is 0 or not a number")
-        } else {
-            None
-        }
-    }
-
     /// ∫ density is 1, or what the samples that are none leave.
     fn integral_of_density<T: Float>(
         &self,
@@ -193,7 +177,7 @@ impl Kit {
         let n = count(self.samples);
         let expected = 1.0 - count(missed) / n;
         let at = format!("∫ = {value:.6} ± {bound:.0e}, {expected:.6} of the samples, {}", sampler.view);
-        if !(bound <= 0.5) {
+        if !within(bound, 0.5) {
             report.push_verdict(names.integral, Verdict::Undecided, at);
         } else if missed == 0 && !sampler.may_miss || value - bound > 1.0 + self.tolerance::<T>() {
             let off = ((value - 1.0).abs() - bound).max(0.0);
@@ -225,7 +209,7 @@ impl Kit {
             for (integral, &observed) in hemisphere.integrals.iter().zip(&hemisphere.counts) {
                 let [p, bound] = integral.pair(0);
                 let expected = n * p;
-                unresolved += usize::from(!(n * bound <= 0.5 * expected.max(5.0).sqrt()));
+                unresolved += usize::from(!within(n * bound, 0.5 * expected.max(5.0).sqrt()));
                 cells.push(Counted { observed: count(observed), expected });
             }
         }
@@ -250,6 +234,24 @@ impl Kit {
             report.push_p_value(name, kolmogorov(n, distance), at, String::new());
             judged(report);
         }
+    }
+}
+
+/// What is wrong with a sample by itself.
+fn fault<T: Float>(sampler: &Sampler<'_, T>, d: [f64; 3], weight: f64) -> Option<&'static str> {
+    let density = (sampler.density)(d);
+    if d.iter().any(|c| !c.is_finite()) {
+        Some("not finite")
+    } else if (dot(d, d) - 1.0).abs() > 64.0 * T::EPSILON.to_f64() {
+        Some("not of unit length")
+    } else if d[2] < 0.0 && !sampler.below {
+        Some("below the horizon")
+    } else if !weight.is_finite() || weight < 0.0 {
+        Some("its weight is negative or not finite")
+    } else if density.is_nan() || density <= 0.0 {
+        Some("its density is 0 or not a number")
+    } else {
+        None
     }
 }
 
@@ -315,7 +317,7 @@ fn mean_weight<T>(
     );
     report.push_p_value(names.weights, two_sided((weights.mean - value) / error), at, String::new());
     // What is not known to a tenth of itself, or is the sum of a few weights, is not known.
-    let unknown = !(bound <= 0.1 * value.abs().max(1e-12)) || !weights.is_normal();
+    let unknown = !within(bound, 0.1 * value.abs().max(1e-12)) || !weights.is_normal();
     if let (true, Some(check)) = (unknown, report.checks.last_mut()) {
         check.verdict = Verdict::Undecided;
     }

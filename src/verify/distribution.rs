@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use core::f64::consts::TAU;
 
 use super::directions::{Names, Sampler};
-use super::float::{Float, dot, hex, narrow, unit, wide};
+use super::float::{Float, dot, hex, narrow, relative, unit, view, wide, within};
 use super::integral::{Integral, Precision, double};
 use super::report::{Report, Seen};
 use super::{ARGUMENTS, Kit};
@@ -129,9 +129,9 @@ impl Kit {
         views.extend([below(0.05, 1.0), below(0.3, 4.0)]);
         for view in views {
             let w = wide(view);
-            let at = || format!("w {}", hex(&view));
+            let at = || self::view(view);
             let sigma = ndf.sigma(w);
-            if !(sigma > 1e-4) {
+            if within(sigma, 1e-4) || sigma.is_nan() {
                 // Of the little that is seen from far below the quadrature's scale is another.
                 continue;
             }
@@ -214,11 +214,11 @@ impl Kit {
         views.push(narrow([0.98, 0.17, -0.1]));
         for view in views {
             let w: [N::Scalar; 3] = narrow(unit(wide(view)));
-            if !(ndf.sigma(w.into()).to_f64() > 1e-6) {
+            if within(ndf.sigma(w.into()).to_f64(), 1e-6) {
                 continue;
             }
             let sampler = Sampler {
-                view: format!("w {}", hex(&w)),
+                view: self::view(w),
                 sample: &|u: [N::Scalar; 2]| Some((ndf.sample_vndf(w.into(), u.into()).into(), 1.0)),
                 density: &|m: [f64; 3]| ndf.vndf(w.into(), narrow::<N::Scalar, 3>(m).into()).to_f64(),
                 integrand: None,
@@ -248,10 +248,7 @@ fn values_at<N: Ndf<Scalar: Float> + ?Sized>(ndf: &N, [wi, wo, wm]: [[N::Scalar;
     let at = || format!("wi {} wo {} wm {}", hex(&wi), hex(&wo), hex(&wm));
     let f = |x: N::Scalar| x.to_f64();
     let tiny = f(N::Scalar::MIN_POSITIVE) * 64.0;
-    let relative = |a: f64, b: f64| {
-        let off = (a - b).abs();
-        if a == b || off <= tiny { 0.0 } else { off / a.abs().max(b.abs()) }
-    };
+    let relative = relative::<N::Scalar>;
     let (vi, vo, vm) = (wi.into(), wo.into(), wm.into());
     let opposite = wm.map(|c| -c);
     let d = f(ndf.d(vm));

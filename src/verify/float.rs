@@ -54,6 +54,12 @@ pub(super) fn hex<T: Float>(v: &[T]) -> String {
     format!("[{}]", parts.join(", "))
 }
 
+/// A view, short: its angle from the normal and its azimuth.
+pub(super) fn view<T: Float>(w: [T; 3]) -> String {
+    let [x, y, z] = wide(w);
+    format!("from {:.4}°, azimuth {:.1}°", x.hypot(y).atan2(z).to_degrees(), y.atan2(x).to_degrees())
+}
+
 /// The numbers as f64, exactly.
 pub(super) fn wide<T: Real>(v: [T; 3]) -> [f64; 3] {
     v.map(T::to_f64)
@@ -62,6 +68,18 @@ pub(super) fn wide<T: Real>(v: [T; 3]) -> [f64; 3] {
 /// Each number rounded once.
 pub(super) fn narrow<T: Real, const N: usize>(v: [f64; N]) -> [T; N] {
     v.map(T::lit)
+}
+
+/// Whether x is at most `limit`; NaN is not.
+pub(super) fn within(x: f64, limit: f64) -> bool {
+    x <= limit
+}
+
+/// |a − b| over the larger of both; 0 where both are too small to have digits, or equal.
+pub(super) fn relative<T: Real>(a: f64, b: f64) -> f64 {
+    let (off, tiny) = ((a - b).abs(), 64.0 * T::MIN_POSITIVE.to_f64());
+    let infinite = a.is_infinite() && a.to_bits() == b.to_bits();
+    if off <= tiny || infinite { 0.0 } else { off / a.abs().max(b.abs()) }
 }
 
 pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {

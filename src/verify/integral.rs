@@ -39,10 +39,8 @@ impl<const K: usize> Integral<K> {
     pub(super) const ZERO: Self = Self { value: [0.0; K], bound: [0.0; K] };
 
     pub(super) fn add(&mut self, other: &Self) {
-        for k in 0..K {
-            self.value[k] += other.value[k];
-            self.bound[k] += other.bound[k];
-        }
+        self.value.iter_mut().zip(other.value).for_each(|(sum, value)| *sum += value);
+        self.bound.iter_mut().zip(other.bound).for_each(|(sum, bound)| *sum += bound);
     }
 
     pub(super) fn pair(&self, k: usize) -> [f64; 2] {
@@ -61,7 +59,7 @@ fn panel<const K: usize>(f: &mut impl FnMut(f64) -> [f64; K], low: f64, high: f6
         }
     }
     let mut result = Integral::ZERO;
-    for k in 0..K {
+    for (k, (value, bound)) in result.value.iter_mut().zip(&mut result.bound).enumerate() {
         let at = |i: usize| if i == 7 { values[7][k] } else { values[i][k] + values[14 - i][k] };
         let kronrod: f64 = (0..8).map(|i| KRONROD[i] * at(i)).sum();
         let gauss: f64 = (0..4).map(|j| GAUSS[j] * at(2 * j + 1)).sum();
@@ -72,10 +70,9 @@ fn panel<const K: usize>(f: &mut impl FnMut(f64) -> [f64; K], low: f64, high: f6
             if spread > 0.0 { spread * (200.0 * difference / spread).powf(1.5).min(1.0) } else { difference };
         // The rounding of the sum.
         let rounding = 16.0 * f64::EPSILON * kronrod.abs();
-        result.value[k] = half * kronrod;
+        *value = half * kronrod;
         // NaN stays, and is no bound.
-        result.bound[k] =
-            if kronrod.is_finite() { half.abs() * (estimate.max(rounding)) } else { f64::INFINITY };
+        *bound = if kronrod.is_finite() { half.abs() * (estimate.max(rounding)) } else { f64::INFINITY };
     }
     result
 }
@@ -102,7 +99,9 @@ pub(super) fn integral<const K: usize>(
         .collect();
     loop {
         let mut total = Integral::ZERO;
-        panels.iter().for_each(|(_, part)| total.add(part));
+        for (_, part) in &panels {
+            total.add(part);
+        }
         let wanted = total.value.map(|value| precision.absolute.max(precision.relative * value.abs()));
         // How many times too large an error is.
         let excess = |bound: &[f64; K]| {
@@ -164,10 +163,10 @@ pub(super) fn double<const K: usize>(
         breaks,
         precision,
     );
-    for k in 0..K {
+    for (k, left) in left.into_iter().enumerate() {
         // What was asked of the inner integrals, and what one of them has left, as if all had.
         let asked = 0.1 * precision.absolute.max(precision.relative * outer.value[k].abs());
-        outer.bound[k] += asked + left[k] * length;
+        outer.bound[k] += asked + left * length;
     }
     outer
 }

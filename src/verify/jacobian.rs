@@ -2,7 +2,7 @@
 
 use alloc::format;
 
-use super::float::{cross, dot, hex, unit, wide};
+use super::float::{cross, dot, hex, unit, wide, within};
 use super::report::{Report, Seen};
 use super::{ARGUMENTS, Kit};
 
@@ -51,7 +51,7 @@ impl Kit {
             // Richardson: the error is of second order in the step.
             let (found, bound) = ((4.0 * fine - coarse) / 3.0, (fine - coarse).abs());
             let claimed = jacobian(v);
-            if !(bound * bound <= allowed * claimed.abs().max(f64::MIN_POSITIVE) * claimed.abs()) {
+            if !within(bound * bound, allowed * claimed.abs().max(f64::MIN_POSITIVE) * claimed.abs()) {
                 skipped += usize::from(claimed.is_finite());
                 if claimed.is_finite() {
                     continue;

@@ -5,6 +5,8 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use core::fmt;
 
+use super::float::within;
+
 /// What a check has found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
@@ -137,21 +139,38 @@ impl Report {
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{:<10} {:<46} {:>11} {:>11}  at", "verdict", "check", "worst", "bound")?;
-        for check in &self.checks {
+        for (i, check) in self.checks.iter().enumerate() {
             let verdict = match check.verdict {
                 Verdict::Passed => "passed",
                 Verdict::Failed => "FAILED",
                 Verdict::Undecided => "undecided",
             };
+            // Of the same check from several views those that passed are one line, of the worst.
+            let same = |other: &Check| other.name == check.name && other.verdict == Verdict::Passed;
+            let mut at = check.at.clone();
+            if check.verdict == Verdict::Passed {
+                // By p, or by the deviation; the first of equals.
+                let rank = |check: &Check| check.p_value.unwrap_or(-check.worst);
+                let beats = |(j, other): (usize, &Check)| {
+                    let order = rank(other).total_cmp(&rank(check)).then(j.cmp(&i));
+                    same(other) && order.is_lt()
+                };
+                if self.checks.iter().enumerate().any(beats) {
+                    continue;
+                }
+                let times = self.checks.iter().filter(|other| same(other)).count();
+                if times > 1 {
+                    at = format!("worst of {times}: {at}");
+                }
+            }
             let number =
                 |x: f64| if check.p_value.is_some() { format!("p {x:.2e}") } else { format!("{x:.2e}") };
             writeln!(
                 f,
-                "{verdict:<10} {:<46} {:>11} {:>11}  {}",
+                "{verdict:<10} {:<46} {:>11} {:>11}  {at}",
                 check.name,
                 number(check.worst),
                 number(check.bound),
-                check.at
             )?;
         }
         for check in self.checks.iter().filter(|check| check.verdict != Verdict::Passed) {
@@ -194,7 +213,7 @@ impl Seen {
         at: impl FnOnce() -> String,
     ) {
         let (deviation, bound) = ((value / expected - 1.0).abs(), (bound / expected).abs());
-        self.uncertain |= !(bound <= allowed);
+        self.uncertain |= !within(bound, allowed);
         // Of a bound that is small beside what is allowed the deviation is what was seen.
         self.see(if deviation.is_nan() { deviation } else { (deviation - bound).max(0.0) }, at);
     }

@@ -125,7 +125,12 @@ impl Cells {
         pilot.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let n = pilot.len();
         let cut = |numbers: &[f64], parts: usize| -> Vec<f64> {
-            let mut edges: Vec<f64> = (1..parts).map(|i| numbers[i * numbers.len() / parts]).collect();
+            let at = |i: usize| numbers.get(i * numbers.len() / parts).copied();
+            let mut edges: Vec<f64> = (1..parts).filter_map(at).collect();
+            // Where many are equal, which those of a density are not, they have a cell of their own.
+            let tied = edges.windows(2).filter(|e| e[0] >= e[1]).map(|e| e[0] + 1e-9).collect::<Vec<_>>();
+            edges.extend(tied);
+            edges.sort_by(f64::total_cmp);
             edges.dedup();
             edges
         };
