@@ -50,7 +50,9 @@ mod integral;
 mod jacobian;
 mod report;
 mod sphere;
-mod statistics;
+pub mod statistics;
+#[cfg(feature = "proptest")]
+pub mod strategies;
 
 pub use arguments::Arguments;
 pub use bsdf::{Bsdf, Sides};

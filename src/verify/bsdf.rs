@@ -3,7 +3,7 @@
 use alloc::format;
 use alloc::string::String;
 use alloc::vec::Vec;
-use core::cell::RefCell;
+use core::cell::{Cell, RefCell};
 use core::marker::PhantomData;
 use core::panic::AssertUnwindSafe;
 use std::panic::catch_unwind;
@@ -68,7 +68,8 @@ where
     S: Fn(V, [T; 2]) -> Option<(V, T, T)>,
 {
     /// A BRDF of `eval(wi, wo)`, f without the cosine; `pdf(wi, wo)` of sampling wi, by solid angle;
-    /// and `sample(wo, u)`: wi, its weight f cos/pdf, and its pdf.
+    /// and `sample(wo, u)`: wi, its weight f cos/pdf, and its pdf. A sample of weight 0 to the other
+    /// side counts as none.
     ///
     /// It is taken to reflect only, to be reciprocal, and to be looked at from above.
     pub const fn new(eval: E, pdf: P, sample: S) -> Self {
@@ -126,17 +127,23 @@ struct Tested<'a, T> {
     eval: &'a dyn Fn([T; 3], [T; 3]) -> T,
     pdf: &'a dyn Fn([T; 3], [T; 3]) -> T,
     sample: &'a dyn Fn([T; 3], [T; 2]) -> Drawn<T>,
+    transmits: bool,
+    /// The first panic, and how many there were.
     panicked: RefCell<Option<String>>,
+    panics: Cell<usize>,
 }
+
+/// After so many panics nothing is called any more by a group of checks.
+const MOST_PANICS: usize = 20;
 
 impl<T: Float> Tested<'_, T> {
     fn caught<R>(&self, what: &str, at: impl Fn() -> String, call: impl FnOnce() -> R) -> Option<R> {
-        if self.panicked.borrow().is_some() {
-            // Once is enough.
+        if self.panics.get() >= MOST_PANICS {
             return None;
         }
         let result = catch_unwind(AssertUnwindSafe(call)).ok();
         if result.is_none() {
+            self.panics.set(self.panics.get() + 1);
             self.panicked.borrow_mut().get_or_insert_with(|| format!("{what} panicked at {}", at()));
         }
         result
@@ -155,7 +162,10 @@ impl<T: Float> Tested<'_, T> {
     fn sample(&self, wo: [T; 3], u: [T; 2]) -> Option<([T; 3], f64, f64)> {
         let at = || format!("wo {} u {}", hex(&wo), hex(&u));
         let sample = self.caught("sample", at, || (self.sample)(wo, u))?;
-        sample.map(|(wi, weight, pdf)| (wi, weight.to_f64(), pdf.to_f64()))
+        let (wi, weight, pdf) = sample?;
+        // Renderers have it for none: to the other side, with nothing.
+        let none = !self.transmits && (wi[2] < T::ZERO) != (wo[2] < T::ZERO) && weight == T::ZERO;
+        (!none).then(|| (wi, weight.to_f64(), pdf.to_f64()))
     }
 
     /// The relative change of a function where a component of wi or wo changes by an ulp: what its
@@ -204,7 +214,15 @@ impl Kit {
         let sample = |wo: [T; 3], u: [T; 2]| {
             (bsdf.sample)(wo.into(), u).map(|(wi, weight, pdf)| (wi.components(), weight, pdf))
         };
-        let tested = Tested { eval: &eval, pdf: &pdf, sample: &sample, panicked: RefCell::new(None) };
+        let transmits = bsdf.eta.is_some();
+        let tested = Tested {
+            eval: &eval,
+            pdf: &pdf,
+            sample: &sample,
+            transmits,
+            panicked: RefCell::default(),
+            panics: Cell::new(0),
+        };
         let about = About {
             with_cosine: bsdf.with_cosine,
             isotropic: bsdf.isotropic,
@@ -214,7 +232,9 @@ impl Kit {
         };
         let mut report = Report::new(self.false_alarms);
         self.every_argument(&mut report, &tested, about);
+        tested.panics.set(0);
         self.every_sample(&mut report, &tested, about);
+        tested.panics.set(0);
         self.every_view(&mut report, &tested, about);
         let panicked = tested.panicked.into_inner();
         let verdict = if panicked.is_some() { Verdict::Failed } else { Verdict::Passed };

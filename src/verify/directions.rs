@@ -14,7 +14,7 @@ use super::float::{Float, dot, hex, wide, within};
 use super::integral::{Integral, Precision};
 use super::report::{Report, Verdict};
 use super::sphere::{Cells, Chart};
-use super::statistics::{Counted, count, kolmogorov, pearson, two_sided};
+use super::statistics::{Counted, Pearson, count, kolmogorov, pearson, two_sided};
 
 /// A sampler and what it must agree with.
 pub(super) struct Sampler<'a, T> {
@@ -216,11 +216,11 @@ impl Kit {
         if sampler.may_miss {
             cells.push(Counted { observed: count(missed), expected: (n * (1.0 - mass)).max(0.0) });
         }
-        let (statistic, dof, p) = pearson(&cells);
-        let at = format!("χ² = {statistic:.0} of {dof} degrees of freedom, {}", sampler.view);
+        let Pearson { statistic, freedom, p_value } = pearson(&cells);
+        let at = format!("χ² = {statistic:.0} of {freedom} degrees of freedom, {}", sampler.view);
         let details = table(sampler, hemispheres, n, missed, mass);
         let undecided = unresolved > 0;
-        report.push_p_value(names.cells, p, at, details);
+        report.push_p_value(names.cells, p_value, at, details);
         let judged = |report: &mut Report| {
             if let (true, Some(check)) = (undecided, report.checks.last_mut()) {
                 check.verdict = Verdict::Undecided;

@@ -121,6 +121,19 @@ impl Report {
         self.checks.iter().all(|check| check.verdict == Verdict::Passed)
     }
 
+    /// Of the checks of one name and verdict, which are of several views, the worst and their number.
+    fn worst_of_each(&self) -> impl Iterator<Item = (&Check, usize)> {
+        let same = |a: &Check, b: &Check| a.name == b.name && a.verdict == b.verdict;
+        // By p, or by the deviation; the first of equals.
+        let rank = |check: &Check| check.p_value.unwrap_or(-check.worst);
+        self.checks.iter().enumerate().filter_map(move |(i, check)| {
+            let others = || self.checks.iter().enumerate().filter(|(_, other)| same(other, check));
+            let beaten =
+                |(j, other): (usize, &Check)| rank(other).total_cmp(&rank(check)).then(j.cmp(&i)).is_lt();
+            (!others().any(beaten)).then(|| (check, others().count()))
+        })
+    }
+
     /// The checks that have failed.
     pub fn failures(&self) -> impl Iterator<Item = &Check> {
         self.checks.iter().filter(|check| check.verdict == Verdict::Failed)
@@ -139,43 +152,27 @@ impl Report {
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{:<10} {:<46} {:>11} {:>11}  at", "verdict", "check", "worst", "bound")?;
-        for (i, check) in self.checks.iter().enumerate() {
+        for (check, same) in self.worst_of_each() {
             let verdict = match check.verdict {
                 Verdict::Passed => "passed",
                 Verdict::Failed => "FAILED",
                 Verdict::Undecided => "undecided",
             };
-            // Of the same check from several views those that passed are one line, of the worst.
-            let same = |other: &Check| other.name == check.name && other.verdict == Verdict::Passed;
-            let mut at = check.at.clone();
-            if check.verdict == Verdict::Passed {
-                // By p, or by the deviation; the first of equals.
-                let rank = |check: &Check| check.p_value.unwrap_or(-check.worst);
-                let beats = |(j, other): (usize, &Check)| {
-                    let order = rank(other).total_cmp(&rank(check)).then(j.cmp(&i));
-                    same(other) && order.is_lt()
-                };
-                if self.checks.iter().enumerate().any(beats) {
-                    continue;
-                }
-                let times = self.checks.iter().filter(|other| same(other)).count();
-                if times > 1 {
-                    at = format!("worst of {times}: {at}");
-                }
-            }
             let number =
                 |x: f64| if check.p_value.is_some() { format!("p {x:.2e}") } else { format!("{x:.2e}") };
             writeln!(
                 f,
-                "{verdict:<10} {:<46} {:>11} {:>11}  {at}",
+                "{verdict:<10} {:<46} {:>11} {:>11}  {}{}",
                 check.name,
                 number(check.worst),
                 number(check.bound),
+                if same > 1 { format!("worst of {same}: ") } else { String::new() },
+                check.at
             )?;
         }
-        for check in self.checks.iter().filter(|check| check.verdict != Verdict::Passed) {
-            if !check.details.is_empty() {
-                writeln!(f, "\n{}\n{}", check.name, check.details)?;
+        for (check, _) in self.worst_of_each() {
+            if check.verdict != Verdict::Passed && !check.details.is_empty() {
+                writeln!(f, "\n{}, {}\n{}", check.name, check.at, check.details)?;
             }
         }
         Ok(())

@@ -1,4 +1,13 @@
-//! p-values.
+//! p-values, and Pearson's test of counts.
+//!
+//! # Example
+//! ```
+//! use microsurface::verify::statistics::{Counted, pearson};
+//! let cells = [(103.0, 100.0), (198.0, 200.0), (299.0, 300.0)];
+//! let outcome = pearson(&cells.map(|(observed, expected)| Counted { observed, expected }));
+//! assert_eq!(outcome.freedom, 2);
+//! assert!((outcome.p_value - 0.942).abs() < 1e-3);
+//! ```
 
 use alloc::vec::Vec;
 use core::f64::consts::PI;
@@ -13,19 +22,22 @@ pub(super) fn count(n: usize) -> f64 {
 }
 
 /// The probability that χ² of `dof` degrees of freedom is above `x`.
-pub(super) fn chi_square(dof: usize, x: f64) -> f64 {
+#[must_use]
+pub fn chi_square(dof: usize, x: f64) -> f64 {
     if x <= 0.0 { 1.0 } else { gamma_ur(0.5 * count(dof), 0.5 * x) }
 }
 
 /// The probability that a normal number is farther from its mean than `deviation` standard
 /// deviations.
-pub(super) fn two_sided(deviation: f64) -> f64 {
+#[must_use]
+pub fn two_sided(deviation: f64) -> f64 {
     if deviation.is_nan() { 0.0 } else { erfc(deviation.abs() / 2_f64.sqrt()) }
 }
 
 /// The p-value of Kolmogorov and Smirnov for a largest distance of two distribution functions, of
 /// `n` samples; with the correction of Stephens 1970.
-pub(super) fn kolmogorov(n: f64, distance: f64) -> f64 {
+#[must_use]
+pub fn kolmogorov(n: f64, distance: f64) -> f64 {
     let lambda = (n.sqrt() + 0.12 + 0.11 / n.sqrt()) * distance;
     if lambda < 0.2 {
         return 1.0;
@@ -45,15 +57,30 @@ pub(super) fn kolmogorov(n: f64, distance: f64) -> f64 {
     terms.sum()
 }
 
-/// A cell of the table: what was seen, and what was expected.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Counted {
-    pub(super) observed: f64,
-    pub(super) expected: f64,
+/// A cell of a table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Counted {
+    /// How many were seen.
+    pub observed: f64,
+    /// How many were expected.
+    pub expected: f64,
+}
+
+/// The outcome of Pearson's test.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pearson {
+    /// χ².
+    pub statistic: f64,
+    /// The degrees of freedom.
+    pub freedom: usize,
+    /// The probability of as large a χ².
+    pub p_value: f64,
 }
 
 impl Counted {
-    pub(super) fn contribution(&self) -> f64 {
+    /// What it adds to χ².
+    #[must_use]
+    pub fn contribution(&self) -> f64 {
         let difference = self.observed - self.expected;
         difference * difference / self.expected
     }
@@ -62,10 +89,13 @@ impl Counted {
 /// The smallest expectation for which counts are close enough to normal (Cochran 1954).
 const SMALLEST_EXPECTATION: f64 = 5.0;
 
-/// Pearson's χ² of cells whose counts sum to what was expected in all: statistic, degrees of
-/// freedom and p-value. Cells of little expectation are put together; what is then still too little
+/// The probability below which what is left of the small cells rejects.
+const IMPOSSIBLE: f64 = 1e-9;
+
+/// Pearson's χ² of cells whose counts sum to what was expected in all. Cells of little expectation are put together; what is then still too little
 /// is judged by Poisson's distribution.
-pub(super) fn pearson(cells: &[Counted]) -> (f64, usize, f64) {
+#[must_use]
+pub fn pearson(cells: &[Counted]) -> Pearson {
     let mut sorted: Vec<Counted> = cells.to_vec();
     sorted.sort_by(|a, b| a.expected.total_cmp(&b.expected));
     let none = Counted { observed: 0.0, expected: 0.0 };
@@ -87,7 +117,9 @@ pub(super) fn pearson(cells: &[Counted]) -> (f64, usize, f64) {
     let rest = poisson(pool);
     let dof = if used > 1 { used - 1 } else { 1 };
     let p = if statistic.is_finite() { chi_square(dof, statistic) } else { 0.0 };
-    (statistic, dof, if rest < 1.0 { (2.0 * p.min(rest)).min(1.0) } else { p })
+    // The rest counts only where it could not be: p stays uniform.
+    let p_value = if rest < IMPOSSIBLE { p.min(rest) } else { p };
+    Pearson { statistic, freedom: dof, p_value }
 }
 
 /// The probability of at least as many as were observed.
@@ -120,11 +152,11 @@ mod tests {
     #[test]
     fn small_cells_are_put_together() {
         let cell = |observed, expected| Counted { observed, expected };
-        let (statistic, dof, _) = pearson(&[cell(3.0, 2.5), cell(2.0, 2.5), cell(90.0, 95.0)]);
-        assert!(dof == 1 && (statistic - 25.0 / 95.0).abs() < 1e-12);
-        assert!((pearson(&[cell(1.0, 0.7), cell(90.0, 90.0)]).2 - 1.0).abs() < 0.01);
+        let outcome = pearson(&[cell(3.0, 2.5), cell(2.0, 2.5), cell(90.0, 95.0)]);
+        assert!(outcome.freedom == 1 && (outcome.statistic - 25.0 / 95.0).abs() < 1e-12);
+        assert!((pearson(&[cell(1.0, 0.7), cell(90.0, 90.0)]).p_value - 1.0).abs() < 0.01);
         // Where nothing may be, nothing was seen.
-        assert!(pearson(&[cell(1.0, 0.0)]).2 < 1e-300);
-        assert!(pearson(&[cell(100.0, 100.0), cell(40.0, 1e-9)]).2 < 1e-100);
+        assert!(pearson(&[cell(1.0, 0.0)]).p_value < 1e-300);
+        assert!(pearson(&[cell(100.0, 100.0), cell(40.0, 1e-9)]).p_value < 1e-100);
     }
 }

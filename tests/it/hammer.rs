@@ -5,24 +5,39 @@
 //! The long form, 10⁸ evaluations or as many as the variable says, with its progress on stderr:
 //! `MICROSURFACE_HAMMER=1e9 cargo test --release --test it hammer -- --ignored --nocapture`
 
-use core::f64::consts::TAU;
 use core::fmt::Write as _;
 use std::collections::BTreeMap;
 
 use microsurface::bsdf::{AllNormals, NormalSampling, RoughConductor, UniformMixture};
 use microsurface::fresnel::{Conductor, Dielectric, Fresnel, Schlick};
 use microsurface::roughness::alpha_range;
+use microsurface::verify::Arguments;
 use microsurface::{Ndf, SampleNdf, SampleVndf};
+use rand_pcg::Pcg64Mcg;
 
 use crate::properties::skewness;
-use crate::random::Random;
 use crate::rows::Row;
 use crate::scalar::{Scalar, dot, wide};
 use crate::surfaces::{Move, Shape, Spec, Surface, Widths};
 
+/// The kit's arguments, and what surfaces are made of.
+struct Random(Arguments<Pcg64Mcg>);
+
 impl Random {
-    fn ulps(&mut self) -> i32 {
-        i32::try_from(self.below(9)).expect("a small number") - 4
+    fn unit(&mut self) -> f64 {
+        self.0.uniform()
+    }
+
+    fn below(&mut self, n: u32) -> u32 {
+        (self.unit() * f64::from(n)) as u32
+    }
+
+    fn within(&mut self, low: f64, high: f64) -> f64 {
+        self.0.within(low, high)
+    }
+
+    fn decades(&mut self, low: f64, high: f64) -> f64 {
+        self.0.decades(low, high)
     }
 
     fn alpha(&mut self) -> f64 {
@@ -37,8 +52,8 @@ impl Random {
 
     fn gamma(&mut self) -> f64 {
         match self.below(4) {
-            0 => self.below(11) as f64,
-            1 => (self.below(10) as f64 + self.decades(-16.0, -1.0)).min(10.0),
+            0 => f64::from(self.below(11)),
+            1 => (f64::from(self.below(10)) + self.decades(-16.0, -1.0)).min(10.0),
             _ => self.within(0.0, 10.0),
         }
     }
@@ -99,61 +114,9 @@ impl Random {
         core::array::from_fn(|_| core::array::from_fn(|_| self.within(-2.0, 2.0)))
     }
 
-    /// A direction on or above the horizon.
-    fn direction<T: Scalar>(&mut self) -> [T; 3] {
-        let phi = if self.below(4) == 0 { self.below(8) as f64 * TAU / 8.0 } else { TAU * self.unit() };
-        let smallest = T::TINIEST.to_f64().max(f64::MIN_POSITIVE).log10();
-        let (z, r) = match self.below(8) {
-            0 => {
-                let z = T::ZERO.stepped(self.below(64) as i32);
-                return [T::lit(phi.cos()), T::lit(phi.sin()), z];
-            }
-            1 => {
-                let z = T::ONE.stepped(self.ulps() - 3).to_f64();
-                (z, ((1.0 - z) * (1.0 + z)).max(0.0).sqrt())
-            }
-            2 => {
-                let z = self.decades(smallest, 0.0);
-                (z, ((1.0 - z) * (1.0 + z)).sqrt())
-            }
-            3 => {
-                let r = self.decades(smallest, 0.0);
-                (((1.0 - r) * (1.0 + r)).sqrt(), r)
-            }
-            4 if self.below(4) == 0 => (1.0, 0.0),
-            _ => {
-                let z = self.unit();
-                (z, ((1.0 - z) * (1.0 + z)).sqrt())
-            }
-        };
-        [r * phi.cos(), r * phi.sin(), z].map(T::lit)
-    }
-
-    /// A second direction: unrelated, next to the first, mirrored, or almost opposite.
-    fn partner<T: Scalar>(&mut self, [x, y, z]: [T; 3]) -> [T; 3] {
-        match self.below(8) {
-            0 => [x, y, z],
-            1 => [x.stepped(self.ulps()), y.stepped(self.ulps()), z.stepped(self.ulps())],
-            2 => [-x, -y, z],
-            3 if x != T::ZERO || y != T::ZERO => {
-                let z = z.to_f64() * self.decades(-9.0, 0.0);
-                let radius = ((1.0 - z) * (1.0 + z)).max(0.0).sqrt() / x.to_f64().hypot(y.to_f64());
-                let [x, y, z] = [-radius * x.to_f64(), -radius * y.to_f64(), z].map(T::lit);
-                [x.stepped(self.ulps()), y.stepped(self.ulps()), z]
-            }
-            _ => self.direction(),
-        }
-    }
-
+    /// A random number, 1 among them: generators of f32 round to it.
     fn number<T: Scalar>(&mut self) -> T {
-        match self.below(9) {
-            0 => T::ZERO,
-            8 => T::ONE,
-            1 => T::BELOW_ONE,
-            2 => T::ONE.stepped(-1 - self.ulps().abs()),
-            3 => T::lit(self.decades(-40.0, 0.0)).min(T::BELOW_ONE),
-            _ => T::lit(self.unit()).min(T::BELOW_ONE),
-        }
+        if self.below(9) == 0 { T::ONE } else { self.0.number() }
     }
 }
 
@@ -326,7 +289,7 @@ fn beyond_the_scalar<T: Scalar>(spec: &Spec) -> bool {
 /// Rounds over both scalars until `evaluations` are done.
 fn hammer(evaluations: u64, progress: impl Fn(u64)) {
     let mut defects = Defects::default();
-    let mut random = Random(0x6d69_6372_6f73);
+    let mut random = Random(Arguments::new(Pcg64Mcg::new(0x6d69_6372_6f73)).merciless());
     while defects.evaluations < evaluations {
         let spec = random.spec();
         rounds::<f32>(&mut defects, &mut random, spec);
@@ -359,8 +322,8 @@ fn rounds<T: Scalar>(defects: &mut Defects, random: &mut Random, spec: Spec) {
     let mixed = RoughConductor::new(surface.clone(), schlick).sampled_by(mixture);
     let schlick = RoughConductor::new(surface.clone(), schlick);
     for _ in 0..8 {
-        let wo = random.direction();
-        let (wi, wm) = (random.partner(wo), random.partner(wo));
+        let wo = random.0.direction();
+        let (wi, wm) = (random.0.partner(wo), random.0.partner(wo));
         let u = [random.number(), random.number()];
         let mut round = Round { defects, surface: &surface, wi, wo, wm, u };
         round.distribution();

@@ -9,10 +9,12 @@
 
 use core::fmt::Write;
 
+use microsurface::verify::statistics::{Counted, Pearson, pearson};
+
 use crate::chart::Chart;
 use crate::points::Points;
 use crate::quadrature::{Mass, Quadrature, total};
-use crate::special::{chi_square_survival, count};
+use crate::special::count;
 
 /// The smallest expectation for which Poisson counts are close enough to normal (Cochran 1954).
 const SMALLEST_EXPECTATION: f64 = 5.0;
@@ -69,15 +71,7 @@ impl Effort {
 #[derive(Debug, Clone)]
 struct Cell {
     place: String,
-    observed: f64,
-    expected: f64,
-}
-
-impl Cell {
-    fn contribution(&self) -> f64 {
-        let difference = self.observed - self.expected;
-        difference * difference / self.expected
-    }
+    counted: Counted,
 }
 
 /// The result of a test.
@@ -105,7 +99,7 @@ impl Outcome {
             None => return None,
         };
         let mut cells: Vec<&Cell> = self.cells.iter().collect();
-        cells.sort_by(|a, b| b.contribution().total_cmp(&a.contribution()));
+        cells.sort_by(|a, b| b.counted.contribution().total_cmp(&a.counted.contribution()));
         let mut text = format!(
             "{}: {reason}\n  chi2 = {:.1} with {} degrees of freedom, mass = {:.9} ± {:.1e}, missed {:.5}\n",
             self.label, self.statistic, self.dof, self.mass.value, self.mass.error, self.missed
@@ -115,9 +109,9 @@ impl Outcome {
                 text,
                 "  {:>46}  observed {:>9}  expected {:>12.2}  {:>+8.1} sigma",
                 cell.place,
-                cell.observed,
-                cell.expected,
-                (cell.observed - cell.expected) / cell.expected.sqrt()
+                cell.counted.observed,
+                cell.counted.expected,
+                (cell.counted.observed - cell.counted.expected) / cell.counted.expected.sqrt()
             )
             .expect("writing to a string");
         }
@@ -152,22 +146,21 @@ pub(crate) fn test(mut subject: Subject<'_>, effort: Effort, points: &mut dyn Po
         .zip(places(&edges))
         .map(|((mass, observed), place)| Cell {
             place,
-            observed: count(observed),
-            expected: scale * mass.value,
+            counted: Counted { observed: count(observed), expected: scale * mass.value },
         })
         .collect();
     if subject.misses {
         let expected = (n * (1.0 - mass.value)).max(0.0);
-        cells.push(Cell { place: "no direction".into(), observed: count(none), expected });
+        let counted = Counted { observed: count(none), expected };
+        cells.push(Cell { place: "no direction".into(), counted });
     }
-    let cells = pooled(cells);
-    let statistic: f64 = cells.iter().map(Cell::contribution).sum();
-    let dof = cells.len().saturating_sub(1).max(1);
+    let counted: Vec<Counted> = cells.iter().map(|cell| cell.counted).collect();
+    let Pearson { statistic, freedom, p_value } = pearson(&counted);
     Outcome {
         label: subject.label,
         statistic,
-        dof,
-        p_value: chi_square_survival(dof, statistic),
+        dof: freedom,
+        p_value,
         mass,
         missed: count(none) / n,
         impossible,
@@ -222,26 +215,4 @@ fn places(edges: &[Vec<f64>; 2]) -> impl Iterator<Item = String> {
         let columns = edges[1].windows(2).map(|e| [e[0], e[1]]);
         columns.map(move |[c, d]| format!("u1 {a:.4}..{b:.4}, u2 {c:.4}..{d:.4}"))
     })
-}
-
-/// The cells with those of small expectation put together, the smallest first, until each pool is
-/// large enough.
-fn pooled(mut cells: Vec<Cell>) -> Vec<Cell> {
-    cells.sort_by(|a, b| a.expected.total_cmp(&b.expected));
-    let mut result: Vec<Cell> = Vec::with_capacity(cells.len());
-    let mut pool = Cell { place: String::from("pool"), observed: 0.0, expected: 0.0 };
-    for cell in cells {
-        if pool.expected > 0.0 || cell.expected < SMALLEST_EXPECTATION || pool.observed > 0.0 {
-            pool.observed += cell.observed;
-            pool.expected += cell.expected;
-            if pool.expected >= SMALLEST_EXPECTATION {
-                let place = format!("pool up to {}", cell.place);
-                result.push(Cell { place, ..pool.clone() });
-                (pool.observed, pool.expected) = (0.0, 0.0);
-            }
-        } else {
-            result.push(cell);
-        }
-    }
-    result
 }

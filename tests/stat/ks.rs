@@ -1,11 +1,12 @@
 //! The Kolmogorov–Smirnov test of marginals whose distribution functions are known in closed form.
 //!
 //! The largest distance D between the empirical and the given distribution function has, for a
-//! correct sampler and n → ∞, P(√n D > λ) = Q(λ); Stephens' √n + 0.12 + 0.11/√n in place of √n
-//! makes this accurate to 1e-3 of p from n = 10 on. Needs neither cells nor the crate's density,
+//! correct sampler and n → ∞, the distribution of Kolmogorov. Needs neither cells nor the crate's density,
 //! and is sensitive to smooth shifts that cells average out.
 
-use crate::special::{count, kolmogorov_q};
+use microsurface::verify::statistics::kolmogorov;
+
+use crate::special::count;
 
 /// The p-value that numbers in [0, 1] are uniform; sorts them.
 pub(crate) fn p_value_of(numbers: &mut [f64]) -> f64 {
@@ -17,7 +18,7 @@ pub(crate) fn p_value_of(numbers: &mut [f64]) -> f64 {
     });
     let d = distance.fold(0.0, f64::max);
     let inside = numbers.iter().all(|u| (-1e-6..=1.0 + 1e-6).contains(u));
-    if inside { kolmogorov_q((n.sqrt() + 0.12 + 0.11 / n.sqrt()) * d) } else { 0.0 }
+    if inside { kolmogorov(n, d) } else { 0.0 }
 }
 
 #[test]
@@ -30,5 +31,5 @@ fn evenly_spread_numbers_pass_and_bunched_ones_do_not() {
     // The last of the n numbers is 0.95 (1 − 1/2n), which is D below 1.
     let distance: f64 = 1.0 - 0.95 * (1.0 - 0.5 / 1000.0);
     let p = p_value_of(&mut numbers(|u| 0.95 * u));
-    assert!((p - kolmogorov_q((1000_f64.sqrt() + 0.12 + 0.11 / 1000_f64.sqrt()) * distance)).abs() < 1e-12);
+    assert!((p - kolmogorov(1000.0, distance)).abs() < 1e-12);
 }
