@@ -9,6 +9,7 @@
 //! | [`deforming`] | stretched, sheared and skinned surfaces |
 //! | [`batches`] | many directions at once |
 //! | [`your_own`] | a distribution of your own |
+//! | `testing` (feature `verify`) | a BRDF of your own under the test kit |
 //! | [`accuracy`] | how many digits, and what happens at the ends of the domain |
 //! | [`costs`] | what a scene pays |
 
@@ -20,4 +21,6 @@ pub mod costs;
 pub mod deforming;
 pub mod path_tracer;
 pub mod shimmer;
+#[cfg(feature = "verify")]
+pub mod testing;
 pub mod your_own;

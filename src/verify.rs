@@ -16,6 +16,7 @@
 //! };
 //! Kit::new().samples(20_000).bsdf(&Bsdf::new(eval, pdf, sample)).assert();
 //! ```
+//! [How to read a report](crate::guide::testing) is a page of the guide.
 //! # What the kit sees
 //! | of a [`Bsdf`] | by |
 //! |---|---|
