@@ -13,7 +13,7 @@ use super::arguments::Arguments;
 use super::float::{Float, dot, hex, wide, within};
 use super::integral::{Integral, Precision};
 use super::report::{Report, Verdict};
-use super::sphere::{Cells, Chart};
+use super::sphere::{Cell, Cells, Chart};
 use super::statistics::{Counted, Pearson, count, kolmogorov, pearson, two_sided};
 
 /// A sampler and what it must agree with.
@@ -57,8 +57,11 @@ struct Hemisphere {
 }
 
 impl Hemisphere {
-    fn new<T: Float>(sampler: &Sampler<'_, T>, pilot: &[[f64; 3]], upper: bool, samples: f64) -> Self {
-        let in_it: Vec<[f64; 3]> = pilot.iter().copied().filter(|d| (d[2] >= 0.0) == upper).collect();
+    fn new<T: Float>(sampler: &Sampler<'_, T>, pilot: &[([f64; 3], f64)], upper: bool, samples: f64) -> Self {
+        let in_it: Vec<[f64; 3]> = pilot.iter().map(|(d, _)| *d).filter(|d| (d[2] >= 0.0) == upper).collect();
+        // The mean weight, so that both integrals are of the size of 1.
+        let mean = pilot.iter().map(|(_, weight)| weight).sum::<f64>() / count(pilot.len());
+        let scale = if mean.is_finite() && mean > 0.0 { mean } else { 1.0 };
         let up = [0.0, 0.0, if upper { 1.0 } else { -1.0 }];
         // The peak is where the density is largest.
         let peak = in_it.iter().copied().map(|d| ((sampler.density)(d), d)).filter(|(p, _)| p.is_finite());
@@ -70,9 +73,14 @@ impl Hemisphere {
         let expected = 1.0 / count(cells.len());
         let absolute = SHARE_OF_NOISE * (expected / samples).sqrt();
         let precision = Precision { absolute: absolute.min(1e-3 * expected), relative: 0.0, panels: 40 };
-        let integrand = |d: [f64; 3]| [(sampler.density)(d), sampler.integrand.map_or(0.0, |f| f(d))];
-        let integrals =
-            cells.cells().map(|(_, cell)| cells.chart.integral(integrand, &cell, precision)).collect();
+        let integrand = |d: [f64; 3]| [(sampler.density)(d), sampler.integrand.map_or(0.0, |f| f(d) / scale)];
+        let integral = |cell: Cell| {
+            let mut found = cells.chart.integral(integrand, &cell, precision);
+            found.value[1] *= scale;
+            found.bound[1] *= scale;
+            found
+        };
+        let integrals = cells.cells().map(|(_, cell)| integral(cell)).collect();
         let counts = vec![0; cells.len()];
         Self { cells, integrals, counts }
     }
@@ -103,7 +111,8 @@ impl Weights {
     /// Whether the mean of n such weights is normal: no weight alone makes a tenth of the variance.
     fn is_normal(&self) -> bool {
         let largest = self.largest - self.mean;
-        largest * largest <= 0.1 * self.squares.max(f64::MIN_POSITIVE)
+        let constant = self.standard_error() <= 1e-7 * self.mean;
+        constant || largest * largest <= 0.1 * self.squares
     }
 }
 
@@ -120,10 +129,10 @@ impl Kit {
         if self.progress {
             std::eprintln!("{} samples, {}", self.samples, sampler.view);
         }
-        let pilot: Vec<[f64; 3]> = (0..(self.samples / 4).clamp(2000, 20_000))
+        let pilot: Vec<([f64; 3], f64)> = (0..(self.samples / 4).clamp(2000, 20_000))
             .filter_map(|_| (sampler.sample)(arguments.point()))
-            .map(|(d, _)| wide(d))
-            .filter(|d| d.iter().all(|c| c.is_finite()))
+            .map(|(d, weight)| (wide(d), weight))
+            .filter(|(d, _)| d.iter().all(|c| c.is_finite()))
             .collect();
         let n = count(self.samples);
         let sides: &[bool] = if sampler.below { &[true, false] } else { &[true] };

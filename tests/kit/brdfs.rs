@@ -76,6 +76,31 @@ fn precision_is_compared() {
     assert_rejected("1 − z²", &Kit::new().precision(&of_naive, &exact), &["f in f32 against f64"]);
 }
 
+/// The sampler of another frame: turned by 3 degrees, and mirrored.
+#[test]
+fn other_frames_are_found() {
+    let brdf = RoughConductor::new(Ggx::anisotropic(0.1, 0.4).unwrap(), Perfect::<f64>::new());
+    let (sin, cos) = 3_f64.to_radians().sin_cos();
+    let turned = move |w: DVec3| DVec3::new(cos * w.x - sin * w.y, sin * w.x + cos * w.y, w.z);
+    let mirrored = |w: DVec3| DVec3::new(w.x, -w.y, w.z);
+    let report = |to: &dyn Fn(DVec3) -> DVec3, back: &dyn Fn(DVec3) -> DVec3| {
+        Kit::new().angles(&[60.0]).bsdf(&Bsdf::new(
+            |wi: DVec3, wo: DVec3| brdf.eval(wi, wo),
+            |wi, wo| brdf.pdf(wi, wo),
+            |wo, u: [f64; 2]| brdf.sample(to(wo), DVec2::from(u)).map(|s| (back(s.wi), s.weight, s.pdf)),
+        ))
+    };
+    let azimuth = "sample against pdf, azimuth, KS";
+    let report_of_turned = report(&turned, &|w| {
+        let (x, y) = (cos * w.x + sin * w.y, -sin * w.x + cos * w.y);
+        DVec3::new(x, y, w.z)
+    });
+    assert_rejected("turned", &report_of_turned, &["sample against pdf, χ²", azimuth]);
+    // A mirrored frame that is mirrored back is the same; that is not, is not.
+    report(&mirrored, &mirrored).assert();
+    assert_rejected("mirrored", &report(&mirrored, &|w| w), &["sample against pdf, χ²", azimuth]);
+}
+
 trait D {
     fn d_of(&self, h: Vec3) -> f32;
 }

@@ -12,7 +12,7 @@ mod polar;
 mod view;
 
 pub(crate) use mixed::Mixed;
-pub(crate) use polar::{Polar, Radial, Reflecting};
+pub(crate) use polar::{Polar, Radial};
 pub(crate) use view::{Cap, View, VisibleProfile};
 
 /// A bijection of the unit square and the upper hemisphere (or a part of it), one coordinate for

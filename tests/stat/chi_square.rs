@@ -27,12 +27,10 @@ const SHARE_OF_NOISE: f64 = 0.02;
 pub(crate) struct Subject<'a> {
     pub(crate) label: String,
     pub(crate) chart: &'a dyn Chart,
-    /// A normal, or none: allowed only if `misses`.
-    pub(crate) sample: &'a mut dyn FnMut([f64; 2]) -> Option<[f64; 3]>,
+    /// A normal.
+    pub(crate) sample: &'a mut dyn FnMut([f64; 2]) -> [f64; 3],
     /// The density of the normal, 1/sr.
     pub(crate) density: &'a dyn Fn([f64; 3]) -> f64,
-    /// Whether the density may integrate to less than 1, by the share of samples that are none.
-    pub(crate) misses: bool,
     /// By how much the integral may be off because the mask is approximate; expectations are then
     /// shares of it.
     pub(crate) masking: f64,
@@ -82,8 +80,6 @@ pub(crate) struct Outcome {
     pub(crate) p_value: f64,
     /// ∫ density.
     pub(crate) mass: Mass,
-    /// The share of samples that were none.
-    pub(crate) missed: f64,
     /// Why the test fails whatever p is.
     pub(crate) impossible: Option<String>,
     cells: Vec<Cell>,
@@ -101,8 +97,8 @@ impl Outcome {
         let mut cells: Vec<&Cell> = self.cells.iter().collect();
         cells.sort_by(|a, b| b.counted.contribution().total_cmp(&a.counted.contribution()));
         let mut text = format!(
-            "{}: {reason}\n  chi2 = {:.1} with {} degrees of freedom, mass = {:.9} ± {:.1e}, missed {:.5}\n",
-            self.label, self.statistic, self.dof, self.mass.value, self.mass.error, self.missed
+            "{}: {reason}\n  chi2 = {:.1} with {} degrees of freedom, mass = {:.9} ± {:.1e}\n",
+            self.label, self.statistic, self.dof, self.mass.value, self.mass.error
         );
         for cell in cells.iter().take(8) {
             writeln!(
@@ -129,7 +125,7 @@ pub(crate) fn test(mut subject: Subject<'_>, effort: Effort, points: &mut dyn Po
     // The integrals are sums of numbers that carry a rounding of the density, up to some 10 ε,
     // each.
     let allowance = mass.error + 64.0 * subject.epsilon + 1e-9 + subject.masking;
-    let excess = if subject.misses { mass.value - 1.0 } else { (mass.value - 1.0).abs() };
+    let excess = (mass.value - 1.0).abs();
     let mut impossible =
         (excess > allowance).then(|| format!("the density integrates to {} ± {allowance:.1e}", mass.value));
     for (mass, place) in masses.iter().zip(places(&edges)) {
@@ -138,9 +134,9 @@ pub(crate) fn test(mut subject: Subject<'_>, effort: Effort, points: &mut dyn Po
             impossible = Some(format!("no quadrature of {place}: {} ± {:.1e}", mass.value, mass.error));
         }
     }
-    let (counts, none) = histogram(&mut subject, effort.samples, &edges, points, &mut impossible);
+    let counts = histogram(&mut subject, effort.samples, &edges, points, &mut impossible);
     let scale = if subject.masking > 0.0 { n / mass.value } else { n };
-    let mut cells: Vec<Cell> = masses
+    let cells: Vec<Cell> = masses
         .iter()
         .zip(counts)
         .zip(places(&edges))
@@ -149,33 +145,19 @@ pub(crate) fn test(mut subject: Subject<'_>, effort: Effort, points: &mut dyn Po
             counted: Counted { observed: count(observed), expected: scale * mass.value },
         })
         .collect();
-    if subject.misses {
-        let expected = (n * (1.0 - mass.value)).max(0.0);
-        let counted = Counted { observed: count(none), expected };
-        cells.push(Cell { place: "no direction".into(), counted });
-    }
     let counted: Vec<Counted> = cells.iter().map(|cell| cell.counted).collect();
     let Pearson { statistic, freedom, p_value } = pearson(&counted);
-    Outcome {
-        label: subject.label,
-        statistic,
-        dof: freedom,
-        p_value,
-        mass,
-        missed: count(none) / n,
-        impossible,
-        cells,
-    }
+    Outcome { label: subject.label, statistic, dof: freedom, p_value, mass, impossible, cells }
 }
 
-/// The counts of the cells and of samples that were none; the first impossible sample is reported.
+/// The counts of the cells; the first impossible sample is reported.
 fn histogram(
     subject: &mut Subject<'_>,
     samples: usize,
     edges: &[Vec<f64>; 2],
     points: &mut dyn Points,
     impossible: &mut Option<String>,
-) -> (Vec<usize>, usize) {
+) -> Vec<usize> {
     // The inner edges, as coordinates: a sample is binned without evaluating a distribution
     // function.
     let cuts = [0, 1].map(|axis: usize| -> Vec<f64> {
@@ -184,13 +166,9 @@ fn histogram(
     });
     let columns = cuts[1].len() + 1;
     let mut counts = vec![0; (cuts[0].len() + 1) * columns];
-    let mut none = 0;
     for i in 0..samples {
         let u = points.point(i);
-        let Some(m) = (subject.sample)(u) else {
-            none += 1;
-            continue;
-        };
+        let m = (subject.sample)(u);
         let length2 = m[0] * m[0] + m[1] * m[1] + m[2] * m[2];
         let unit = (length2 - 1.0).abs() <= 16.0 * subject.epsilon;
         let possible = (subject.density)(m) > 0.0;
@@ -202,10 +180,7 @@ fn histogram(
         let [row, column] = [0, 1].map(|axis| cuts[axis].partition_point(|&cut| cut <= c[axis]));
         counts[row * columns + column] += 1;
     }
-    if none > 0 && !subject.misses {
-        impossible.get_or_insert_with(|| format!("{none} samples are none"));
-    }
-    (counts, none)
+    counts
 }
 
 /// The ranges of (u₁, u₂) of the cells, in the order of the masses.

@@ -103,9 +103,8 @@ impl Case {
         let subject = Subject {
             label: format!("{}{why}", self.label),
             chart: &self.chart,
-            sample: &mut |u| Some(sample(u)),
+            sample: &mut |u| sample(u),
             density,
-            misses: false,
             masking: masking(self.w),
             epsilon: self.surface.epsilon(),
         };

@@ -33,9 +33,8 @@ impl Case {
         let subject = Subject {
             label: format!("{}{why}", self.label),
             chart: &self.polar,
-            sample: &mut |u| Some(self.surface.sample_d(u)),
+            sample: &mut |u| self.surface.sample_d(u),
             density: &|m| other.surface.pdf_d(m),
-            misses: false,
             masking: 0.0,
             epsilon: self.surface.epsilon(),
         };
@@ -174,9 +173,8 @@ fn wrong_densities_of_all_normals_are_rejected() {
             let subject = Subject {
                 label: format!("{}{why}", case.label),
                 chart: &case.polar,
-                sample: &mut |u| Some(case.surface.sample_d(warp(u))),
+                sample: &mut |u| case.surface.sample_d(warp(u)),
                 density: &|m| scale * case.surface.pdf_d(m),
-                misses: false,
                 masking: 0.0,
                 epsilon: case.surface.epsilon(),
             };

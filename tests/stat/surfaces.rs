@@ -5,6 +5,7 @@ use microsurface::RoughnessMatrix;
 use microsurface::bsdf::{AllNormals, NormalSampling, RoughConductor, UniformMixture};
 use microsurface::fresnel::{Perfect, Spectrum};
 use microsurface::profile::{SampleProfile, SampleVisibleProfile};
+use microsurface::verify::Float;
 use microsurface::{AxisAligned, Error, Isotropic, Linear, Microsurface, Ndf, Real, SampleNdf, SampleVndf};
 
 use crate::chart::Inverse;
@@ -99,7 +100,6 @@ pub(crate) trait Surface {
     fn sample_d(&self, u: [f64; 2]) -> [f64; 3];
     fn pdf_d(&self, m: [f64; 3]) -> f64;
     fn vndf(&self, w: [f64; 3], m: [f64; 3]) -> f64;
-    fn g2_separable_over_g2(&self, wi: [f64; 3], wo: [f64; 3]) -> f64;
 }
 
 /// A surface whose visible normals are drawn.
@@ -122,10 +122,6 @@ impl<N: SampleNdf> Surface for N {
     }
     fn vndf(&self, w: [f64; 3], m: [f64; 3]) -> f64 {
         Ndf::vndf(self, vector::<N::Scalar>(w), vector::<N::Scalar>(m)).to_f64()
-    }
-    fn g2_separable_over_g2(&self, wi: [f64; 3], wo: [f64; 3]) -> f64 {
-        let [i, o] = [wi, wo].map(|w| self.lambda(vector::<N::Scalar>(w)).to_f64());
-        (1.0 + i + o) / ((1.0 + i) * (1.0 + o))
     }
 }
 
@@ -196,16 +192,14 @@ macro_rules! with_map {
 struct Made<R: Recipe>(R, Distribution, MapSpec);
 
 /// What is made of a surface: the surface itself, or a BRDF on it.
-trait Recipe {
+pub(crate) trait Recipe {
     type Made;
-    fn make<N: SampleNdf<Scalar: Spectrum<Scalar = N::Scalar>> + 'static>(self, surface: N) -> Self::Made;
+    fn make<N: SampleNdf<Scalar: Scalar> + 'static>(self, surface: N) -> Self::Made;
     /// The same of one whose visible normals can be drawn.
-    fn make_visible<N>(self, surface: N) -> Self::Made
-    where
-        N: SampleNdf<Scalar: Spectrum<Scalar = N::Scalar>> + SampleVndf + 'static;
+    fn make_visible<N: SampleNdf<Scalar: Scalar> + SampleVndf + 'static>(self, surface: N) -> Self::Made;
 }
 
-impl<T: Real + Spectrum<Scalar = T>, R: Recipe> Visitor<T> for Made<R> {
+impl<T: Scalar, R: Recipe> Visitor<T> for Made<R> {
     type Output = R::Made;
 
     fn visible<P: SampleVisibleProfile<T> + SampleProfile<T> + 'static>(
@@ -232,10 +226,10 @@ struct Itself;
 
 impl Recipe for Itself {
     type Made = Box<dyn Surface>;
-    fn make<N: SampleNdf + 'static>(self, surface: N) -> Self::Made {
+    fn make<N: SampleNdf<Scalar: Scalar> + 'static>(self, surface: N) -> Self::Made {
         Box::new(surface)
     }
-    fn make_visible<N: SampleNdf + SampleVndf + 'static>(self, surface: N) -> Self::Made {
+    fn make_visible<N: SampleNdf<Scalar: Scalar> + SampleVndf + 'static>(self, surface: N) -> Self::Made {
         Box::new(surface)
     }
 }
@@ -245,10 +239,10 @@ struct ItselfVisible;
 
 impl Recipe for ItselfVisible {
     type Made = Option<Box<dyn Visible>>;
-    fn make<N: SampleNdf + 'static>(self, _: N) -> Self::Made {
+    fn make<N: SampleNdf<Scalar: Scalar> + 'static>(self, _: N) -> Self::Made {
         None
     }
-    fn make_visible<N: SampleNdf + SampleVndf + 'static>(self, surface: N) -> Self::Made {
+    fn make_visible<N: SampleNdf<Scalar: Scalar> + SampleVndf + 'static>(self, surface: N) -> Self::Made {
         Some(Box::new(surface))
     }
 }
@@ -264,7 +258,7 @@ pub(crate) enum Normals {
 
 impl Recipe for Normals {
     type Made = Option<Box<dyn Conductor>>;
-    fn make<N: SampleNdf<Scalar: Spectrum<Scalar = N::Scalar>> + 'static>(self, surface: N) -> Self::Made {
+    fn make<N: SampleNdf<Scalar: Scalar> + 'static>(self, surface: N) -> Self::Made {
         let brdf = RoughConductor::new(surface, Perfect::new());
         Some(match self {
             Self::Visible => return None,
@@ -275,10 +269,7 @@ impl Recipe for Normals {
             }
         })
     }
-    fn make_visible<N>(self, surface: N) -> Self::Made
-    where
-        N: SampleNdf<Scalar: Spectrum<Scalar = N::Scalar>> + SampleVndf + 'static,
-    {
+    fn make_visible<N: SampleNdf<Scalar: Scalar> + SampleVndf + 'static>(self, surface: N) -> Self::Made {
         if self == Self::Visible {
             Some(Box::new(RoughConductor::new(surface, Perfect::new())))
         } else {
@@ -288,17 +279,22 @@ impl Recipe for Normals {
 }
 
 /// f32 and f64, which are their own spectra.
-pub(crate) trait Scalar: Real + Spectrum<Scalar = Self> {}
-impl<T: Real + Spectrum<Scalar = T>> Scalar for T {}
+pub(crate) trait Scalar: Float + Spectrum<Scalar = Self> {}
+impl<T: Float + Spectrum<Scalar = T>> Scalar for T {}
+
+/// What a recipe makes of the surface of a distribution under a map.
+pub(crate) fn made<T: Scalar, R: Recipe>(recipe: R, distribution: Distribution, map: MapSpec) -> R::Made {
+    distribution.row.visit::<T, _>(Made(recipe, distribution, map))
+}
 
 /// The surface of a distribution under a map.
 pub(crate) fn surface<T: Scalar>(distribution: Distribution, map: MapSpec) -> Box<dyn Surface> {
-    distribution.row.visit::<T, _>(Made(Itself, distribution, map))
+    made::<T, _>(Itself, distribution, map)
 }
 
 /// The same of one whose visible normals are drawn.
 pub(crate) fn visible<T: Scalar>(distribution: Distribution, map: MapSpec) -> Box<dyn Visible> {
-    let surface = distribution.row.visit::<T, _>(Made(ItselfVisible, distribution, map));
+    let surface = made::<T, _>(ItselfVisible, distribution, map);
     surface.expect("a distribution whose visible normals can be drawn")
 }
 
@@ -308,7 +304,7 @@ pub(crate) fn conductor<T: Scalar>(
     map: MapSpec,
     normals: Normals,
 ) -> Box<dyn Conductor> {
-    let brdf = distribution.row.visit::<T, _>(Made(normals, distribution, map));
+    let brdf = made::<T, _>(normals, distribution, map);
     brdf.expect("a distribution whose normals can be drawn so")
 }
 

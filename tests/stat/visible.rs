@@ -53,9 +53,8 @@ impl Case {
         let subject = Subject {
             label: format!("{}{why}", self.label),
             chart: &self.view(),
-            sample: &mut |u| Some(self.surface.sample_vndf(self.w, u)),
+            sample: &mut |u| self.surface.sample_vndf(self.w, u),
             density,
-            misses: false,
             masking: 0.0,
             epsilon: self.surface.epsilon(),
         };
