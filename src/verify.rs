@@ -44,12 +44,14 @@
 
 mod arguments;
 mod bsdf;
+mod cell_map;
 mod directions;
 mod distribution;
 mod float;
 mod integral;
 mod jacobian;
 mod report;
+mod scattering;
 mod sphere;
 pub mod statistics;
 #[cfg(feature = "proptest")]

@@ -1,15 +1,15 @@
 //! A sampler of directions against its density: χ², and the test of Kolmogorov and Smirnov.
 
 use alloc::format;
-use alloc::string::{String, ToString};
+use alloc::string::String;
 use alloc::vec;
 use alloc::vec::Vec;
-use core::fmt::Write as _;
 
 use rand::Rng;
 
 use super::Kit;
 use super::arguments::Arguments;
+use super::cell_map::cell_map;
 use super::float::{Float, dot, hex, wide, within};
 use super::integral::{Integral, Precision};
 use super::report::{Report, Verdict};
@@ -50,10 +50,10 @@ const SHARE_OF_NOISE: f64 = 0.05;
 
 /// Everything that is known of a hemisphere: its cells, and the integrals of density and integrand
 /// over them.
-struct Hemisphere {
-    cells: Cells,
-    integrals: Vec<Integral<2>>,
-    counts: Vec<usize>,
+pub(super) struct Hemisphere {
+    pub(super) cells: Cells,
+    pub(super) integrals: Vec<Integral<2>>,
+    pub(super) counts: Vec<usize>,
 }
 
 impl Hemisphere {
@@ -227,7 +227,8 @@ impl Kit {
         }
         let Pearson { statistic, freedom, p_value } = pearson(&cells);
         let at = format!("χ² = {statistic:.0} of {freedom} degrees of freedom, {}", sampler.view);
-        let details = table(sampler, hemispheres, n, missed, mass);
+        let none = sampler.may_miss.then(|| (missed, (n * (1.0 - mass)).max(0.0)));
+        let details = cell_map(hemispheres, n, none);
         let undecided = unresolved > 0;
         report.push_p_value(names.cells, p_value, at, details);
         let judged = |report: &mut Report| {
@@ -330,72 +331,4 @@ fn mean_weight<T>(
     if let (true, Some(check)) = (unknown, report.checks.last_mut()) {
         check.verdict = Verdict::Undecided;
     }
-}
-
-/// The cells that deviate most, and a map of all: a row for each distance from the peak, a column
-/// for each part of the azimuth.
-fn table<T>(
-    sampler: &Sampler<'_, T>,
-    hemispheres: &[Hemisphere],
-    n: f64,
-    missed: usize,
-    mass: f64,
-) -> String {
-    let mut text = String::new();
-    let sigma = |observed: usize, expected: f64| (count(observed) - expected) / expected.max(1.0).sqrt();
-    for hemisphere in hemispheres {
-        let side = if hemisphere.cells.chart.upper { "above" } else { "below" };
-        let cells: Vec<_> = hemisphere.cells.cells().collect();
-        let mut worst: Vec<(f64, usize)> = (0..cells.len())
-            .map(|i| (sigma(hemisphere.counts[i], n * hemisphere.integrals[i].value[0]), i))
-            .collect();
-        let _ = writeln!(
-            text,
-            "  {side} the horizon, from the peak (top) outwards; observed − expected in standard deviations:"
-        );
-        let mut row = usize::MAX;
-        for (deviation, i) in &worst {
-            if cells[*i].0 != row {
-                row = cells[*i].0;
-                let s = cells[*i].1.s;
-                let degrees = |s: f64| 2.0 * s.exp().atan().to_degrees();
-                let _ = write!(text, "\n    {:>9.3}°…{:<9.3}° ", degrees(s[0]), degrees(s[1]));
-            }
-            let _ = write!(text, "{}", shade(*deviation));
-        }
-        text.push('\n');
-        worst.sort_by(|a, b| b.0.abs().total_cmp(&a.0.abs()));
-        for (deviation, i) in worst.iter().take(4) {
-            let (_, cell) = cells[*i];
-            let middle = |[low, high]: [f64; 2]| 0.5 * (low + high);
-            let (d, _) = hemisphere.cells.chart.direction(middle(cell.s).clamp(-20.0, 3.0), middle(cell.phi));
-            let _ = writeln!(
-                text,
-                "    about ({:+.3}, {:+.3}, {:+.3}): observed {}, expected {:.1}, {deviation:+.1} σ{}",
-                d[0],
-                d[1],
-                d[2],
-                hemisphere.counts[*i],
-                n * hemisphere.integrals[*i].value[0],
-                if d[2].abs() < 0.1 { ", grazing" } else { "" }
-            );
-        }
-    }
-    if sampler.may_miss {
-        let expected = (n * (1.0 - mass)).max(0.0);
-        let _ = writeln!(text, "  no direction: observed {missed}, expected {expected:.1}");
-    }
-    text
-}
-
-/// A deviation as one character: + and # for too many, - and = for too few.
-fn shade(deviation: f64) -> String {
-    match deviation {
-        d if d > 10.0 => "#",
-        d if d > 3.5 => "+",
-        d if d < -10.0 => "=",
-        d if d < -3.5 => "-",
-        _ => "·",
-    }
-    .to_string()
 }

@@ -6,6 +6,7 @@
 #![expect(clippy::cast_precision_loss, reason = "counts and random bits become numbers")]
 #![expect(clippy::float_cmp, reason = "what was not written must be as it was")]
 
+mod arguments;
 #[path = "../surfaces/mod.rs"]
 #[expect(dead_code, reason = "not every crate reads every column")]
 mod rows;
@@ -15,6 +16,7 @@ use core::marker::PhantomData;
 use core::panic::AssertUnwindSafe;
 use std::panic::catch_unwind;
 
+use arguments::{Arguments, direction, numbers};
 use microsurface::batch::simd::{Level, highest, level, limit_to};
 use microsurface::batch::{
     Custom, Directions, DirectionsMut, NdfBatch, Numbers, ReflectionBatch, Samples, StagedVndf,
@@ -33,83 +35,6 @@ use rows::{Batched, Distribution, Row, Visitor};
 
 /// One more than a block, and a few.
 const LONGEST: usize = 67;
-
-/// Directions, some below the horizon, on it and straight up, and some with a NaN; random numbers
-/// with 0 among them.
-struct Arguments<T> {
-    wi: [Vec<T>; 3],
-    wo: [Vec<T>; 3],
-    u: [Vec<T>; 2],
-}
-
-impl<T: Real> Arguments<T> {
-    fn new(len: usize, seed: u64) -> Self {
-        Self::with(len, seed, true)
-    }
-
-    /// Directions above the horizon, of which batches draw samples by what usually suffices, but
-    /// for one in the second block.
-    fn usual(len: usize, seed: u64) -> Self {
-        Self::with(len, seed, false)
-    }
-
-    fn with(len: usize, seed: u64, special: bool) -> Self {
-        let mut state = seed;
-        let mut random = move || {
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            (state >> 40) as f64 / f64::from(1 << 24)
-        };
-        let mut directions = |shift: usize| {
-            let mut slices = [const { Vec::new() }; 3];
-            for i in 0..len {
-                let z = match (i + shift) % 17 {
-                    _ if !special => random() * if i == 65 { -1.0 } else { 1.0 },
-                    3 => 0.0,
-                    5 => -random(),
-                    7 => 1.0,
-                    9 => 1e-6 * random(),
-                    _ => random(),
-                };
-                let (sin, cos) = (core::f64::consts::TAU * random()).sin_cos();
-                let r = (1.0 - z * z).sqrt();
-                let nan = if special && (i + shift) % 23 == 11 { f64::NAN } else { 0.0 };
-                for (slice, c) in slices.iter_mut().zip([r * cos, r * sin + nan, z]) {
-                    slice.push(T::lit(c));
-                }
-            }
-            slices
-        };
-        let (wi, wo) = (directions(0), directions(4));
-        let u = [0, 1].map(|k| {
-            let number =
-                |i| if (i + k) % 13 == 2 { T::ZERO } else { T::lit(0.618034 * (i + 7 * k) as f64 % 1.0) };
-            (0..len).map(number).collect()
-        });
-        Self { wi, wo, u }
-    }
-
-    fn wi(&self) -> Directions<'_, T> {
-        borrowed(&self.wi)
-    }
-    fn wo(&self) -> Directions<'_, T> {
-        borrowed(&self.wo)
-    }
-    fn u(&self) -> Numbers<'_, T> {
-        Numbers { x: &self.u[0], y: &self.u[1] }
-    }
-}
-
-fn borrowed<T>([x, y, z]: &[Vec<T>; 3]) -> Directions<'_, T> {
-    Directions { x, y, z }
-}
-
-fn direction<T: Real>([x, y, z]: &[Vec<T>; 3], i: usize) -> T::Vec3 {
-    [x[i], y[i], z[i]].into()
-}
-
-fn numbers<T: Real>([x, y]: &[Vec<T>; 2], i: usize) -> T::Vec2 {
-    [x[i], y[i]].into()
-}
 
 /// Bits of one kind of NaN.
 fn bits<T: Real>(x: T) -> u64 {

@@ -12,7 +12,8 @@ use microsurface::fresnel::Schlick;
 use microsurface::roughness::clamped;
 use microsurface::{Beckmann, Error, Ggx, Gtr, Ndf, Real, RoughnessMatrix};
 
-use crate::{Arguments, Elementary, LONGEST, direction, evaluates, reflects, same, samples};
+use crate::arguments::{Arguments, direction};
+use crate::{Elementary, LONGEST, evaluates, reflects, same, samples};
 
 /// Widths and steps over their range, the same for the same index.
 fn width<T: Real>(i: usize, k: usize) -> T {
