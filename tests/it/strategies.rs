@@ -1,7 +1,7 @@
 //! Strategies for surfaces, beside those of the kit; and that all of them reach the hard cases.
 
 pub(crate) use microsurface::verify::strategies::{
-    above, alpha, anywhere, at_height, at_radius, matrix, pairs, strictly_above, unit_interval,
+    above, alpha, anywhere, at_height, at_radius, footprint, matrix, pairs, strictly_above, unit_interval,
 };
 use microsurface::verify::strategies::{correlation, log_uniform, two_alphas};
 use proptest::prelude::*;

@@ -10,7 +10,7 @@ use proptest::prelude::*;
 use super::evaluation::built;
 use super::{Outcome, check, for_both_scalars, near, roundings_of_d, skewness};
 use crate::scalar::{Scalar, dot, unit, vec3, wide};
-use crate::strategies::{above, alpha, at_height, matrix, strictly_above, surface, widths};
+use crate::strategies::{above, alpha, at_height, footprint, matrix, strictly_above, surface, widths};
 use crate::surfaces::{Move, Shape, Spec, Widths};
 
 for_both_scalars! {
@@ -23,6 +23,7 @@ for_both_scalars! {
     transforms_compose
     rotations_leave_isotropic_surfaces
     densities_carry_the_jacobian_of_normals
+    filtered_surfaces_have_the_sum_of_the_matrices
 }
 
 /// Both surfaces have the same D and σ to a number of roundings each.
@@ -122,6 +123,38 @@ fn linear_densities_are_those_of_their_matrix<T: Scalar>() {
         if roundings * T::EPSILON.to_f64() < 0.05 && exact > 1e-30 {
             near("D of Beckmann", beckmann.d(w.into()), T::lit(exact), 2.0 + roundings)?;
         }
+        Ok(())
+    });
+}
+
+/// A + 2Σ, and nothing that is seen becomes smaller by it.
+fn filtered_surfaces_have_the_sum_of_the_matrices<T: Scalar>() {
+    check(4000, (widths(), footprint::<T>(), above::<T>()), |(widths, footprint, w)| {
+        let surface = |linear: Linear<T>| Microsurface::new(Ggx, linear);
+        let linear = match widths {
+            Widths::Isotropic(alpha) => Isotropic::new(T::lit(alpha)).map(Linear::from),
+            Widths::AxisAligned(x, y) => AxisAligned::new(T::lit(x), T::lit(y)).map(Linear::from),
+            Widths::Matrix { x, y, correlation } => {
+                let [xx, xy, yy] = [x * x, correlation * (x * y), y * y].map(T::lit);
+                RoughnessMatrix::new(xx, xy, yy).map(Linear::from)
+            }
+        };
+        let Ok(still) = linear.map(surface) else { return Ok(()) };
+        let covariance = footprint.covariance(T::lit(1.0 / 12.0));
+        let Ok(filtered) = still.filtered(covariance) else { return Ok(()) };
+        let entries = |surface: &Microsurface<Ggx, Linear<T>>| {
+            surface.roughness_matrix().map(|matrix| matrix.entries().map(Real::to_f64))
+        };
+        let (Ok(before), Ok(after)) = (entries(&still), entries(&filtered)) else { return Ok(()) };
+        let sum = covariance.entries().map(Real::to_f64);
+        for k in [0, 2] {
+            near("a variance", T::lit(before[k] + 2.0 * sum[k]), T::lit(after[k]), 6.0)?;
+        }
+        let largest = (after[0] * after[2]).sqrt();
+        let off = (before[1] + 2.0 * sum[1] - after[1]).abs();
+        prop_assert!(off <= 8.0 * T::EPSILON.to_f64() * largest, "the covariance is {off:e} off");
+        let (a, b) = (still.sigma(w.into()), filtered.sigma(w.into()));
+        prop_assert!(b.to_f64() >= a.to_f64() * (1.0 - 8.0 * T::EPSILON.to_f64()), "{a} becomes {b}");
         Ok(())
     });
 }
