@@ -236,7 +236,11 @@ impl<T: Scalar> Round<'_, T> {
             if !positive(dot(w, normal)) {
                 self.defect(side, "turned away", &format!("w·m = {} of {normal:?}", dot(w, normal).hex()));
             }
-            if !positive(surface.vndf(w.into(), normal.into())) {
+            // A steep normal of a surface with very different widths is rounded to another slope: by
+            // ε (1 + t²) beside the smaller width.
+            let z2 = normal[2].to_f64() * normal[2].to_f64();
+            let resolved = skewness(&surface.spec) * T::EPSILON.to_f64() <= 0.25 * z2;
+            if resolved && !positive(surface.vndf(w.into(), normal.into())) {
                 self.defect(side, "density zero", &format!("{normal:?}"));
             }
         }
