@@ -12,7 +12,7 @@ use super::arguments::Arguments;
 use super::cell_map::cell_map;
 use super::float::{Float, dot, hex, wide, within};
 use super::integral::{Integral, Precision};
-use super::report::{Report, Verdict};
+use super::report::{Report, Seen, Verdict};
 use super::sphere::{Cell, Cells, Chart};
 use super::statistics::{Counted, Pearson, count, kolmogorov, pearson, two_sided};
 
@@ -24,7 +24,7 @@ pub(super) struct Sampler<'a, T> {
     pub(super) sample: &'a dyn Fn([T; 2]) -> Option<([T; 3], f64)>,
     /// The density by solid angle.
     pub(super) density: &'a dyn Fn([f64; 3]) -> f64,
-    /// What the mean weight is the integral of, if weights mean something.
+    /// The function whose integral is the mean weight, if weights mean something.
     pub(super) integrand: Option<&'a dyn Fn([f64; 3]) -> f64>,
     /// Whether some samples may be none.
     pub(super) may_miss: bool,
@@ -47,6 +47,8 @@ const ROWS: usize = 32;
 const COLUMNS: usize = 6;
 /// The share of the noise of a cell that the error of its expectation may be.
 const SHARE_OF_NOISE: f64 = 0.05;
+/// The relative error that is asked of the integrals over a hemisphere, at most.
+const ASKED: f64 = 1e-3;
 
 /// Everything that is known of a hemisphere: its cells, and the integrals of density and integrand
 /// over them.
@@ -66,13 +68,11 @@ impl Hemisphere {
         // The peak is where the density is largest.
         let peak = in_it.iter().copied().map(|d| ((sampler.density)(d), d)).filter(|(p, _)| p.is_finite());
         let peak = peak.max_by(|a, b| a.0.total_cmp(&b.0)).map_or(up, |(_, d)| d);
-        // At the horizon itself there is no hemisphere about the peak.
-        let peak = if peak[2].abs() < 1e-6 { [peak[0], peak[1], 1e-6 * up[2]] } else { peak };
         let (rows, columns) = if in_it.len() < 2000 { (4, 2) } else { (ROWS, COLUMNS) };
         let cells = Cells::new(Chart::new(peak, upper), &in_it, rows, columns);
         let expected = 1.0 / count(cells.len());
         let absolute = SHARE_OF_NOISE * (expected / samples).sqrt();
-        let precision = Precision { absolute: absolute.min(1e-3 * expected), relative: 0.0, panels: 40 };
+        let precision = Precision { absolute: absolute.min(ASKED * expected), relative: 0.0, panels: 40 };
         let integrand = |d: [f64; 3]| [(sampler.density)(d), sampler.integrand.map_or(0.0, |f| f(d) / scale)];
         let integral = |cell: Cell| {
             let mut found = cells.chart.integral(integrand, &cell, precision);
@@ -108,17 +108,17 @@ impl Weights {
         (self.squares / (self.n * (self.n - 1.0))).sqrt()
     }
 
-    /// Whether the mean of n such weights is normal: no weight alone makes a tenth of the variance.
-    fn is_normal(&self) -> bool {
+    /// Whether the mean of n such weights is normal: no weight alone makes a tenth of the variance;
+    /// or moves the mean by more than the integral is known to, so that it does not matter.
+    fn is_normal(&self, bound: f64) -> bool {
         let largest = self.largest - self.mean;
-        let constant = self.standard_error() <= 1e-7 * self.mean;
-        constant || largest * largest <= 0.1 * self.squares
+        largest <= self.n * bound || largest * largest <= 0.1 * self.squares
     }
 }
 
 impl Kit {
-    /// χ², Kolmogorov–Smirnov, the integral of the density and the mean weight of one sampler. Gives
-    /// the integral of the integrand over each hemisphere, with its bound.
+    /// Checks one sampler: χ², Kolmogorov–Smirnov, integral of the density, mean weight. Gives the
+    /// integral of the integrand over each hemisphere, with its bound.
     pub(super) fn sampler<T: Float>(
         &self,
         report: &mut Report,
@@ -186,14 +186,14 @@ impl Kit {
         let n = count(self.samples);
         let expected = 1.0 - count(missed) / n;
         let at = format!("∫ = {value:.6} ± {bound:.0e}, {expected:.6} of the samples, {}", sampler.view);
-        if !within(bound, 0.5) {
+        // Twice what was asked of each of two hemispheres: beyond it the quadrature has failed.
+        if !within(bound, 4.0 * ASKED) {
             report.push_verdict(names.integral, Verdict::Undecided, at);
         } else if missed == 0 && !sampler.may_miss || value - bound > 1.0 + self.tolerance::<T>() {
             let off = ((value - 1.0).abs() - bound).max(0.0);
-            let mut seen = super::report::Seen::default();
-            // Half of the digits of the quadrature of the cells.
+            let mut seen = Seen::default();
             seen.see(off, || at);
-            report.push(names.integral, seen, self.tolerance::<T>().max(1e-5));
+            report.push(names.integral, seen, self.tolerance::<T>());
         } else {
             // The share of none is binomial; one more sample keeps the error of none from 0.
             let share = (value.clamp(0.0, 1.0) * (1.0 - value).clamp(0.0, 1.0)).max(1.0 / n);
@@ -247,7 +247,7 @@ impl Kit {
     }
 }
 
-/// What is wrong with a sample by itself.
+/// The fault of a sample by itself, if it has one.
 fn fault<T: Float>(sampler: &Sampler<'_, T>, d: [f64; 3], weight: f64) -> Option<&'static str> {
     let density = (sampler.density)(d);
     if d.iter().any(|c| !c.is_finite()) {
@@ -320,14 +320,15 @@ fn mean_weight<T>(
 ) {
     let [value, bound] = total(hemispheres).pair(1);
     let standard = weights.standard_error();
-    let error = standard.hypot(bound).max(1e-6 * value.abs()).max(f64::MIN_POSITIVE);
+    let error = standard.hypot(bound).max(f64::MIN_POSITIVE);
     let at = format!(
         "mean weight {:.6} ± {standard:.0e}, ∫ f cos = {value:.6} ± {bound:.0e}, {}",
         weights.mean, sampler.view
     );
     report.push_p_value(names.weights, two_sided((weights.mean - value) / error), at, String::new());
-    // What is not known to a tenth of itself, or is the sum of a few weights, is not known.
-    let unknown = !within(bound, 0.1 * value.abs().max(1e-12)) || !weights.is_normal();
+    // The integral is known to what was asked of it, or better than the mean weight is.
+    let known = within(bound, (4.0 * ASKED * value.abs()).max(standard));
+    let unknown = !known || !weights.is_normal(bound);
     if let (true, Some(check)) = (unknown, report.checks.last_mut()) {
         check.verdict = Verdict::Undecided;
     }

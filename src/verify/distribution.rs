@@ -132,7 +132,7 @@ impl Kit {
             let at = || self::view(view);
             let sigma = ndf.sigma(w);
             if within(sigma, 1e-4) || sigma.is_nan() {
-                // Of the little that is seen from far below the quadrature's scale is another.
+                // The little that is seen from far below has another scale than the quadrature.
                 continue;
             }
             let found = over_visible(
@@ -205,8 +205,8 @@ impl Kit {
         report.judge()
     }
 
-    /// Checks [`sample_vndf`](SampleVndf::sample_vndf) against [`vndf`](Ndf::vndf) from every angle,
-    /// and from below the horizon.
+    /// Checks [`sample_vndf`](SampleVndf::sample_vndf) against [`vndf`](Ndf::vndf) from every
+    /// angle, and from below the horizon.
     pub fn visible_normals<N: SampleVndf<Scalar: Float> + ?Sized>(&self, ndf: &N) -> Report {
         let mut report = Report::new(self.false_alarms);
         let mut arguments = self.arguments(4);
@@ -231,8 +231,8 @@ impl Kit {
     }
 }
 
-/// D(h) G1/(4 w.z) at the wi that mirrors w about m, with its half vector made anew, times dwi/dm = 4
-/// w·m.
+/// D(h) G1/(4 w.z) at the wi that mirrors w about m, with its half vector made anew, times
+/// dwi/dm = 4 w·m.
 fn half<N: Ndf<Scalar: Float> + ?Sized>(ndf: &Wide<'_, N>, w: [f64; 3], m: [f64; 3]) -> f64 {
     let cos = dot(w, m);
     if w[2] <= 0.0 || cos <= 0.0 {
@@ -281,20 +281,29 @@ fn values_at<N: Ndf<Scalar: Float> + ?Sized>(ndf: &N, [wi, wo, wm]: [[N::Scalar;
     let outside = outside.into_iter().fold(0.0, |a: f64, b| if b.is_nan() { f64::NAN } else { a.max(b) });
     seen.range.see(outside, at);
 
-    // Where w·m has its digits.
-    let faces = |w: [N::Scalar; 3]| dot(wide(w), wide(wm)) > 1e-3;
+    let facing = |w: [N::Scalar; 3]| dot(wide(w), wide(wm));
+    // Nearer to the edge than rounding either side may be right.
+    let faces = |w: [N::Scalar; 3]| facing(w) > 4.0 * N::Scalar::EPSILON.to_f64();
     if wo[2] > N::Scalar::lit(1e-6) && wi[2] > N::Scalar::lit(1e-6) {
         let lambda = f(ndf.lambda(vo));
         let z = f(wo[2]);
         let mut off = relative(z * (1.0 + lambda), sigma);
         if faces(wo) {
             off = off.max(relative(g1o, z / sigma));
-            off = off.max(relative(vndf * sigma, dot(wide(wo), wide(wm)) * d));
+            let rounding = Kit::rounding_of::<N::Scalar>(facing(wo));
+            off = off.max((relative(vndf * sigma, facing(wo) * d) - rounding).max(0.0));
             if faces(wi) {
                 off = off.max(relative(g2, 1.0 / (1.0 + lambda + f(ndf.lambda(vi)))));
             }
         }
         seen.definitions.see(off, || format!("Λ {lambda:e}, {}", at()));
+    }
+    if wm[2] > N::Scalar::ZERO {
+        // Twice the normal is exact; what a direction an ulp away changes is no fault.
+        let along = f(ndf.d_along(wm.map(|c| c + c).into()));
+        let moved = [1, -1].map(|ulps| f(ndf.d(wm.map(|c| c.stepped(ulps)).into())));
+        let spread = relative(moved[0], d).max(relative(moved[1], d));
+        seen.definitions.see((relative(along, d) - 8.0 * spread).max(0.0), || format!("D along, {}", at()));
     }
     if has_slope {
         let z2 = f(wm[2]) * f(wm[2]);

@@ -7,7 +7,7 @@ use core::fmt;
 
 use super::float::within;
 
-/// What a check has found.
+/// The outcome of a check.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
     /// Nothing is wrong that the check could see.
@@ -21,7 +21,7 @@ pub enum Verdict {
 /// One check.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Check {
-    /// What must hold.
+    /// The statement that must hold.
     pub name: &'static str,
     /// Whether it does.
     pub verdict: Verdict,
@@ -102,7 +102,7 @@ impl Report {
         self
     }
 
-    /// Both reports in one.
+    /// Both reports in one; the probabilities of a false alarm add up.
     pub fn and(mut self, other: Self) -> Self {
         self.checks.extend(other.checks);
         self.false_alarms += other.false_alarms;
@@ -121,7 +121,7 @@ impl Report {
         self.checks.iter().all(|check| check.verdict == Verdict::Passed)
     }
 
-    /// Of the checks of one name and verdict, which are of several views, the worst and their number.
+    /// The worst check of each name and verdict, and how many views it is the worst of.
     fn worst_of_each(&self) -> impl Iterator<Item = (&Check, usize)> {
         let same = |a: &Check, b: &Check| a.name == b.name && a.verdict == b.verdict;
         // By p, or by the deviation; the first of equals.
@@ -199,9 +199,9 @@ impl Seen {
         }
     }
 
-    /// Takes in the relative deviation of an integral from what it must be. What the integral's own
-    /// bound leaves open is no failure; but where the bound alone is above `allowed`, nothing is
-    /// known.
+    /// Takes in the relative deviation of an integral from what it must be. It has failed where the
+    /// deviation without the integral's own bound is above `allowed`, and passed where it is below
+    /// with the bound; between them nothing is known.
     pub(super) fn see_integral(
         &mut self,
         [value, bound]: [f64; 2],
@@ -210,8 +210,7 @@ impl Seen {
         at: impl FnOnce() -> String,
     ) {
         let (deviation, bound) = ((value / expected - 1.0).abs(), (bound / expected).abs());
-        self.uncertain |= !within(bound, allowed);
-        // Of a bound that is small beside what is allowed the deviation is what was seen.
+        self.uncertain |= !within(deviation + bound, allowed);
         self.see(if deviation.is_nan() { deviation } else { (deviation - bound).max(0.0) }, at);
     }
 }

@@ -167,8 +167,7 @@ impl Kit {
         report.push("∫ f |cos| ≤ 1 (furnace)", furnace, self.tolerance::<T>());
     }
 
-    /// What must hold at every argument: everything is finite, reciprocal and has the symmetry of
-    /// the surface.
+    /// Checks every argument: values are finite, reciprocal and have the symmetry of the surface.
     fn every_argument<T: Float>(&self, report: &mut Report, tested: &Tested<'_, T>, about: About) {
         let [mut finite, mut reciprocal, mut symmetric, mut long] = [(); 4].map(|()| Seen::default());
         let mut arguments = self.arguments(6);
@@ -194,10 +193,11 @@ impl Kit {
                 let wrong = if x.is_finite() && x >= 0.0 { 0.0 } else { f64::INFINITY };
                 long.see(wrong, || format!("{x:e}, {} times {}", at(), scale.hex()));
             }
-            // Away from the horizon, where cosines have their digits.
-            if i % 4 != 0 || wi[2].abs().min(wo[2].abs()) < T::lit(1e-3) {
+            let cosine = wi[2].abs().min(wo[2].abs()).to_f64();
+            if i % 4 != 0 || cosine <= 0.0 {
                 continue;
             }
+            let rounding = Self::rounding_of::<T>(cosine);
             let f = |wi: [T; 3], wo: [T; 3]| {
                 tested.eval(wi, wo) / if about.with_cosine { wi[2].to_f64().abs() } else { 1.0 }
             };
@@ -206,7 +206,7 @@ impl Kit {
                 let square = |w: [T; 3]| about.index(wide(w)) * about.index(wide(w));
                 let deviation = relative::<T>(value * square(wi), f(wo, wi) * square(wo));
                 if deviation > 0.0 {
-                    let slack = 8.0 * Tested::spread(wi, wo, f);
+                    let slack = rounding + 8.0 * Tested::spread(wi, wo, f);
                     reciprocal.see((deviation - slack).max(0.0), at);
                 } else {
                     reciprocal.see(deviation, at);
@@ -218,7 +218,7 @@ impl Kit {
                 let mirrored = |[x, y, z]: [T; 3]| [x, -y, z];
                 let deviation = relative::<T>(value, f(turned(wi), turned(wo)))
                     .max(relative::<T>(value, f(mirrored(wi), mirrored(wo))));
-                let slack = if deviation > 0.0 { 8.0 * Tested::spread(wi, wo, f) } else { 0.0 };
+                let slack = if deviation > 0.0 { rounding + 8.0 * Tested::spread(wi, wo, f) } else { 0.0 };
                 symmetric.see((deviation - slack).max(0.0), at);
             }
         }
@@ -233,7 +233,7 @@ impl Kit {
         }
     }
 
-    /// What must hold of every sample: its pdf is `pdf`, its weight is f cos/pdf.
+    /// Checks every sample: its pdf is `pdf`, its weight is f cos/pdf.
     fn every_sample<T: Float>(&self, report: &mut Report, tested: &Tested<'_, T>, about: About) {
         let [mut usable, mut pdfs, mut weights] = [(); 3].map(|()| Seen::default());
         let mut arguments = self.arguments(7);
@@ -259,12 +259,13 @@ impl Kit {
             usable.see(if fine { 0.0 } else { f64::INFINITY }, || {
                 format!("weight {weight:e}, pdf {own:e}, {}", at())
             });
-            // Where either cosine has lost its digits a direction cannot be compared.
-            if !fine || wi[2].abs().min(wo[2].abs()) < T::lit(1e-3) {
+            let cosine = wi[2].abs().min(wo[2].abs()).to_f64();
+            if !fine || cosine <= 0.0 {
                 continue;
             }
+            let rounding = Self::rounding_of::<T>(cosine);
             let (pdf, f) = (tested.pdf(wi, wo), tested.eval(wi, wo));
-            let slack = |f: &dyn Fn([T; 3], [T; 3]) -> f64| 4.0 * Tested::spread(wi, wo, f);
+            let slack = |f: &dyn Fn([T; 3], [T; 3]) -> f64| rounding + 4.0 * Tested::spread(wi, wo, f);
             let allowed = self.tolerance::<T>();
             let off_pdf = relative::<T>(own, pdf);
             let excess = if off_pdf > allowed { off_pdf - slack(&|i, o| tested.pdf(i, o)) } else { off_pdf };
@@ -305,9 +306,11 @@ impl Kit {
         for _ in 0..ARGUMENTS {
             let wo = arguments.direction::<f32>();
             let wi = arguments.partner(wo);
-            if wi[2].min(wo[2]) < 1e-3 {
+            let cosine = wi[2].min(wo[2]);
+            if cosine <= 0.0 {
                 continue;
             }
+            let rounding = Self::rounding_of::<f32>(cosine.into());
             let at = |a: f64, b: f64| format!("{a:e} and {b:e}, wi {} wo {}", hex(&wi), hex(&wo));
             let exact =
                 |f: &dyn Fn(W, W) -> f64, wi: [f32; 3], wo: [f32; 3]| f(wide(wi).into(), wide(wo).into());
@@ -317,8 +320,11 @@ impl Kit {
                     return;
                 }
                 let off = (narrow - wide).abs() / wide.abs().max(f64::MIN_POSITIVE);
-                let slack =
-                    if off > 1e-6 { 4.0 * Tested::spread(wi, wo, |i, o| exact(f, i, o)) } else { 0.0 };
+                let slack = if off > 0.0 {
+                    rounding + 4.0 * Tested::spread(wi, wo, |i, o| exact(f, i, o))
+                } else {
+                    0.0
+                };
                 seen.see((off - slack).max(0.0), || at(narrow, wide));
             };
             compare(&mut values, f64::from((single.eval)(wi.into(), wo.into())), &double.eval);

@@ -55,7 +55,7 @@ impl Chart {
     /// The s at which the horizon is met along an azimuth.
     fn horizon(&self, phi: f64) -> f64 {
         let side = if self.upper { 1.0 } else { -1.0 };
-        let (z, b) = (side * self.pole[2].abs().max(1e-300), side * self.axes[0][2] * phi.cos());
+        let (z, b) = (side * self.pole[2].abs().max(f64::MIN_POSITIVE), side * self.axes[0][2] * phi.cos());
         let z = z.abs();
         // z (1 − v²) + 2 b v = 0.
         let root = z.hypot(b);
@@ -127,7 +127,7 @@ impl Cells {
         let cut = |numbers: &[f64], parts: usize| -> Vec<f64> {
             let at = |i: usize| numbers.get(i * numbers.len() / parts).copied();
             let mut edges: Vec<f64> = (1..parts).filter_map(at).collect();
-            // Where many are equal, which those of a density are not, they have a cell of their own.
+            // Many that are equal, which those of a density are not, have a cell of their own.
             let tied = edges.windows(2).filter(|e| e[0] >= e[1]).map(|e| e[0] + 1e-9).collect::<Vec<_>>();
             edges.extend(tied);
             edges.sort_by(f64::total_cmp);
@@ -182,7 +182,8 @@ mod tests {
 
     #[test]
     fn cells_cover_the_hemisphere_once() {
-        for pole in [[0.0, 0.0, 1.0], [0.6, 0.0, 0.8], [-0.8, 0.599, 1e-3], [0.5, 0.5, -0.7]] {
+        for pole in [[0.0, 0.0, 1.0], [0.6, 0.0, 0.8], [-0.8, 0.599, 1e-3], [0.5, 0.5, -0.7], [0.6, 0.8, 0.0]]
+        {
             for upper in [true, false] {
                 let pole = if upper == (pole[2] > 0.0) { pole } else { pole.map(|c| -c) };
                 let chart = Chart::new(pole, upper);

@@ -12,8 +12,9 @@
 use alloc::vec::Vec;
 use core::f64::consts::PI;
 
-use statrs::function::erf::erfc;
 use statrs::function::gamma::{gamma_lr, gamma_ur};
+
+use crate::elementary::erfc;
 
 /// A count as a real number.
 #[expect(clippy::cast_precision_loss, reason = "counts are far below 2⁵³")]
@@ -31,7 +32,7 @@ pub fn chi_square(dof: usize, x: f64) -> f64 {
 /// deviations.
 #[must_use]
 pub fn two_sided(deviation: f64) -> f64 {
-    if deviation.is_nan() { 0.0 } else { erfc(deviation.abs() / 2_f64.sqrt()) }
+    if deviation.is_nan() { 0.0 } else { erfc(deviation.abs() * core::f64::consts::FRAC_1_SQRT_2) }
 }
 
 /// The p-value of Kolmogorov and Smirnov for a largest distance of two distribution functions, of

@@ -239,7 +239,7 @@ impl<T: Scalar> Round<'_, T> {
             // A steep normal of a surface with very different widths is rounded to another slope: by
             // ε (1 + t²) beside the smaller width.
             let z2 = normal[2].to_f64() * normal[2].to_f64();
-            let resolved = skewness(&surface.spec) * T::EPSILON.to_f64() <= 0.25 * z2;
+            let resolved = w == o || skewness(&surface.spec) * T::EPSILON.to_f64() <= 0.25 * z2;
             if resolved && !positive(surface.vndf(w.into(), normal.into())) {
                 self.defect(side, "density zero", &format!("{normal:?}"));
             }

@@ -19,6 +19,8 @@ enum Fault {
     G1,
     /// G2 above G1.
     G2,
+    /// D of a half vector is not homogeneous.
+    Along,
     NegativeBelow,
     NanAtTheHorizon,
     P22,
@@ -54,6 +56,10 @@ impl Ndf for Faulty {
 
     fn sigma(&self, w: DVec3) -> f64 {
         surface(if self.0 == Fault::MaskTooWide { 1.01 } else { 1.0 }).sigma(w)
+    }
+
+    fn d_along(&self, h: DVec3) -> f64 {
+        if self.0 == Fault::Along { self.d(h) } else { self.d(h.normalize()) }
     }
 
     fn lambda(&self, w: DVec3) -> f64 {
@@ -129,12 +135,13 @@ const DEFINITIONS: &str = "Λ, G1, G2, D_w by σ, D along h";
 #[test]
 fn faults_of_functions_are_found() {
     let kit = Kit::new();
-    let cases: [(Fault, &[&str]); 10] = [
+    let cases: [(Fault, &[&str]); 11] = [
         (Fault::Constant, &[NORMALISED, AREA, FURNACE, REFLECTED, VISIBLE]),
         (Fault::MaskTooWide, &[AREA, FURNACE, REFLECTED, VISIBLE]),
         (Fault::Lambda, &[DEFINITIONS]),
         (Fault::G1, &[FURNACE, REFLECTED, DEFINITIONS]),
         (Fault::G2, &[RANGE, DEFINITIONS]),
+        (Fault::Along, &[DEFINITIONS]),
         (Fault::NegativeBelow, &[FINITE]),
         (Fault::NanAtTheHorizon, &[FINITE]),
         (Fault::P22, &["P22 = D wm.z⁴"]),

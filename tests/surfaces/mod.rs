@@ -71,7 +71,7 @@ const GTR: Columns = Columns {
     ..PLAIN
 };
 /// GTR of an integer γ.
-const CLOSED: Columns = Columns { mask: Mask::Exact, share: 1, ..GTR };
+const CLOSED: Columns = Columns { mask: Mask::Exact, roundings: [6.0, 0.0], share: 1, ..GTR };
 
 /// Defines [`Row`] and what each is made of: its columns, whether its visible normals can be drawn,
 /// and the profile of an α and a γ. The rows of the first block stand for all where every one is

@@ -221,7 +221,7 @@ fn single_precision_agrees_with_double() {
             let [x, y] = spec.factor::<f64>().map(|c| c[0] * v.x + c[1] * v.y);
             v.z * v.z / (x * x + y * y)
         } else {
-            (gamma - 2.0).max(0.0)
+            (gamma - 4.0).max(0.0)
         };
         let area = |name, a: f32, b: f64| near(name, a, b as f32, (8.0 + 3.0 * exponent) * skew);
         // A spline's σ from below is a difference; and next to the nadir the closed mask of α = 1
