@@ -28,6 +28,8 @@ struct Tested<'a, T> {
     panics: Cell<usize>,
 }
 
+/// The components of two directions, each of which may be rounded by an ulp.
+const COMPONENTS: f64 = 6.0;
 /// After so many panics nothing is called any more by a group of checks.
 const MOST_PANICS: usize = 20;
 
@@ -265,7 +267,7 @@ impl Kit {
             }
             let rounding = Self::rounding_of::<T>(cosine);
             let (pdf, f) = (tested.pdf(wi, wo), tested.eval(wi, wo));
-            let slack = |f: &dyn Fn([T; 3], [T; 3]) -> f64| rounding + 4.0 * Tested::spread(wi, wo, f);
+            let slack = |f: &dyn Fn([T; 3], [T; 3]) -> f64| rounding + COMPONENTS * Tested::spread(wi, wo, f);
             let allowed = self.tolerance::<T>();
             let off_pdf = relative::<T>(own, pdf);
             let excess = if off_pdf > allowed { off_pdf - slack(&|i, o| tested.pdf(i, o)) } else { off_pdf };
@@ -321,7 +323,7 @@ impl Kit {
                 }
                 let off = (narrow - wide).abs() / wide.abs().max(f64::MIN_POSITIVE);
                 let slack = if off > 0.0 {
-                    rounding + 4.0 * Tested::spread(wi, wo, |i, o| exact(f, i, o))
+                    rounding + COMPONENTS * Tested::spread(wi, wo, |i, o| exact(f, i, o))
                 } else {
                     0.0
                 };

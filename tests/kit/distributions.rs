@@ -9,17 +9,16 @@ use microsurface::{Error, Isotropic, Linear, Microsurface, RoughnessMatrix};
 
 use crate::rows::{Distribution, Mask, Row, Visitor};
 
+/// The relative error of σ and G1 of the paper's spline: 0.0875 is seen below the horizon.
+const SPLINE: f64 = 0.1;
+
 struct Checked<T>(Distribution, PhantomData<T>);
 
 impl<T: Float> Checked<T> {
     fn kit(&self) -> Kit {
         let kit = Kit::new().samples(20_000).merciless();
-        match self.0.row.columns().mask {
-            Mask::Exact => kit,
-            Mask::Nodes => kit.allowing(3e-5),
-            // The paper's spline: only D is exact.
-            Mask::Spline => kit.allowing(0.5),
-        }
+        // The mask of eight nodes is exact to more than is asked here; the paper's spline is not.
+        if self.0.row.columns().mask == Mask::Spline { kit.allowing(SPLINE) } else { kit }
     }
 
     /// One isotropic, one narrow and turned.

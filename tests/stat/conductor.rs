@@ -226,9 +226,8 @@ fn mixtures() -> Vec<Case> {
     cases
 }
 
-/// Masks of eight nodes are right to 8e-6.
 fn kit(samples: usize) -> Kit {
-    Kit::new().samples(samples).allowing(3e-5)
+    Kit::new().samples(samples)
 }
 
 #[test]

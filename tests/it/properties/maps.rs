@@ -194,12 +194,12 @@ fn rotated_matrices_have_their_principal_widths<T: Scalar>() {
         let Ok(matrix) = RoughnessMatrix::rotated(x, y, angle) else { return Ok(()) };
         let [largest, smallest, back] = matrix.principal();
         let ratio = (x / y).to_f64();
-        // In 200,000 cases just over 2, and 2.6, were seen, and 3.1 of the peak.
-        near("largest", largest, x, 3.0)?;
+        // In 200,000 cases just over 2, and 2.8, were seen, and 3.1 of the peak.
+        near("largest", largest, x, 2.25)?;
         near("smallest", smallest, y, 3.0)?;
         let ggx = Ggx::rotated(x, y, angle).expect("as the matrix");
         let normal: T::Vec3 = [T::ZERO, T::ZERO, T::ONE].into();
-        near("the peak", ggx.d(normal), T::lit(1.0 / (PI * x.to_f64() * y.to_f64())), 4.0)?;
+        near("the peak", ggx.d(normal), T::lit(1.0 / (PI * x.to_f64() * y.to_f64())), 3.5)?;
         prop_assert_eq!(ggx.roughness_matrix(), Ok(matrix));
         // Turned by a transform instead.
         let (s, c) = angle.to_f64().sin_cos();
