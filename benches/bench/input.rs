@@ -61,7 +61,7 @@ pub(crate) fn alphas<T: Real>() -> Vec<T> {
 pub(crate) trait Question<T: Real> {
     fn ask<N: SampleNdf<Scalar = T> + Copy>(&mut self, id: (&str, &str), materials: &[N]);
 
-    /// The same of one whose visible normals can be drawn.
+    /// Asks about one whose visible normals can be drawn.
     fn ask_visible<N: SampleNdf<Scalar = T> + SampleVndf + Copy>(
         &mut self,
         id: (&str, &str),

@@ -81,8 +81,8 @@ fn conductors<T: Spectrum<Scalar = T> + Real, N: Ndf<Scalar = T> + Copy, S: Copy
     surfaces.iter().map(|&surface| RoughConductor::new(surface, fresnel).sampled_by(sampling)).collect()
 }
 
-/// What every sampling of a distribution is asked: visible normals where they can be drawn, else all
-/// of them, alone and among uniform directions.
+/// A question about every sampling of a distribution: visible normals where they can be drawn, else
+/// all of them, alone and among uniform directions.
 struct Sampled<'a, 'b, F>(&'a mut BenchmarkGroup<'b, WallTime>, F);
 
 /// A question about a sampler.

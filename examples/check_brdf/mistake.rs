@@ -1,6 +1,6 @@
 //! Mistakes of practice, each found in at least one renderer.
 
-/// What is wrong.
+/// One mistake.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Mistake {
     None,

@@ -23,7 +23,7 @@ fn g1(w: DVec3, alpha: [f64; 2]) -> f64 {
     1.0 / (1.0 + lambda(w, alpha))
 }
 
-/// Height-correlated on one side, Walter's product through the surface.
+/// Height-correlated masking of two directions on one side.
 fn g2(wi: DVec3, wo: DVec3, alpha: [f64; 2]) -> f64 {
     1.0 / (1.0 + lambda(wi, alpha) + lambda(wo, alpha))
 }
@@ -230,15 +230,15 @@ impl Glass {
     pub(crate) fn sample(&self, wo: DVec3, u: [f64; 2]) -> Sample {
         let side = wo.z.signum();
         let up = side * wo;
-        let (flipped, eta) = (DVec3::new(up.x, up.y, up.z), self.index(wo));
+        let eta = self.index(wo);
         // One number chooses and is used again.
-        let h = visible_normal(flipped, [u[0], u[1]], [self.alpha; 2]);
-        let (reflected, behind) = fresnel(flipped.dot(h), eta);
+        let h = visible_normal(up, [u[0], u[1]], [self.alpha; 2]);
+        let (reflected, behind) = fresnel(up.dot(h), eta);
         let choice = (1e6 * u[1]).fract();
         let wi = if choice < reflected {
-            2.0 * flipped.dot(h) * h - flipped
+            2.0 * up.dot(h) * h - up
         } else {
-            (flipped.dot(h) / eta - behind) * h - flipped / eta
+            (up.dot(h) / eta - behind) * h - up / eta
         };
         let wi = side * wi;
         if (wi.z * wo.z > 0.0) != (choice < reflected) || wi.z == 0.0 {

@@ -10,7 +10,7 @@ pub(crate) const LOOK_FOR: &str = "\
   angles. GTR of γ above 2 leaves its peak sooner than Beckmann, which has the roundest peak and the shortest tail.";
 
 const ALPHA: f64 = 0.1;
-/// Of the relative density.
+/// The decades of the relative density that are shown.
 const DECADES: [i32; 2] = [-6, 0];
 
 fn curve(name: &'static str, colour: &'static str, ndf: &dyn Ndf<Scalar = f64>) -> Curve {

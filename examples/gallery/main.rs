@@ -2,9 +2,9 @@
 //! rendered with this crate and the tour's path tracer.
 //!
 //! `cargo run --release --example gallery` writes them to `target/gallery/` in less than a minute
-//! and prints what to look for, and three plots: the lobes of the distributions, what sets a transform
-//! apart from another width, and how much slopes add to the errors of a filter's derivatives. `-- --quick` makes small pictures
-//! of few samples.
+//! and prints what to look for, and three plots: the lobes of the distributions, what sets a
+//! transform apart from another width, and how much slopes add to the errors of a filter's
+//! derivatives. `-- --quick` makes small pictures of few samples.
 //!
 //! Where to look: `plate.rs`, `bodies.rs` and `vases.rs` are a figure each, and their covers are
 //! all that a renderer has to do at a hit: `surface.transformed(m)`.

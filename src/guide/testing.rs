@@ -46,8 +46,8 @@
 //! | turned and mirrored | a half vector or tangent of the wrong sign |
 //! | finite, or every sample usable | the input that is printed, in decimal and in bits: paste it into a test |
 //!
-//! Below the table a χ² that failed has a map of its cells: rows from the peak of the lobe outwards,
-//! columns around it, `+` and `#` where there are too many samples, `-` and `=` where there are too
+//! Below the table a χ² that failed has a map of its cells: rows from the peak of the lobe
+//! outwards, columns around it, `+` and `#` where there are too many samples, `-` and `=` where there are too
 //! few. Too many in the last rows are a tail; alternating columns are a turned lobe.
 //!
 //! "Undecided" means that the kit could not integrate the function to the precision it needs: a

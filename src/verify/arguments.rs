@@ -31,7 +31,7 @@ impl<R: Rng> Arguments<R> {
         Self { random, merciless: false }
     }
 
-    /// The same with components down to the smallest subnormal number.
+    /// Makes components reach down to the smallest subnormal number.
     #[must_use]
     pub fn merciless(self) -> Self {
         Self { merciless: true, ..self }

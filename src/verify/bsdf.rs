@@ -45,7 +45,7 @@ pub struct Bsdf<V, E, P, S> {
     vectors: PhantomData<V>,
 }
 
-/// What is known of a BSDF.
+/// The properties of a BSDF.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct About {
     pub(super) with_cosine: bool,
@@ -80,9 +80,9 @@ where
     P: Fn(V, V) -> T,
     S: Fn(V, [T; 2]) -> Option<(V, T, T)>,
 {
-    /// A BRDF of `eval(wi, wo)`, f without the cosine; `pdf(wi, wo)` of sampling wi, by solid angle;
-    /// and `sample(wo, u)`: wi, its weight f cos/pdf, and its pdf. A sample of weight 0 to the other
-    /// side counts as none.
+    /// A BRDF of three closures: `eval(wi, wo)` is f without the cosine, `pdf(wi, wo)` the density of
+    /// sampling wi by solid angle, `sample(wo, u)` gives wi, its weight f cos/pdf, and its pdf. A
+    /// sample of weight 0 to the other side counts as none.
     ///
     /// It is taken to reflect only, to be reciprocal, and to be looked at from above.
     pub const fn new(eval: E, pdf: P, sample: S) -> Self {
@@ -91,19 +91,19 @@ where
         Self { eval, pdf, sample, about, vectors: PhantomData }
     }
 
-    /// The same whose `eval` has the cosine |wi.z| in it.
+    /// Says that `eval` has the cosine |wi.z| in it.
     #[must_use]
     pub fn with_cosine(self) -> Self {
         Self { about: About { with_cosine: true, ..self.about }, ..self }
     }
 
-    /// The same of which turning both directions, and mirroring them, must change nothing.
+    /// Says that turning both directions, and mirroring them, must change nothing.
     #[must_use]
     pub fn isotropic(self) -> Self {
         Self { about: About { isotropic: true, ..self.about }, ..self }
     }
 
-    /// The same without the check f(wi, wo) = f(wo, wi).
+    /// Leaves out the check f(wi, wo) = f(wo, wi).
     #[must_use]
     pub fn not_reciprocal(self) -> Self {
         Self { about: About { reciprocal: false, ..self.about }, ..self }

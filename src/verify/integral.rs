@@ -139,7 +139,7 @@ pub(super) fn double<const K: usize>(
         relative: 0.1 * precision.relative,
         ..precision
     };
-    // What the inner integrals leave beyond what is asked of them.
+    // The errors that inner integrals leave beyond what is asked of them.
     let mut left = [0.0_f64; K];
     let mut outer = integral(
         |x| {
@@ -164,7 +164,7 @@ pub(super) fn double<const K: usize>(
         precision,
     );
     for (k, left) in left.into_iter().enumerate() {
-        // What was asked of the inner integrals, and what one of them has left, as if all had.
+        // The error asked of the inner integrals, and what one of them has left, as if all had.
         let asked = 0.1 * precision.absolute.max(precision.relative * outer.value[k].abs());
         outer.bound[k] += asked + left * length;
     }

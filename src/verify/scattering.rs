@@ -86,6 +86,11 @@ impl<T: Float> Tested<'_, T> {
     }
 }
 
+/// The value of a closure, or NaN, which no check accepts, if it panics.
+fn or_nan(call: impl FnOnce() -> f64) -> f64 {
+    catch_unwind(AssertUnwindSafe(call)).unwrap_or(f64::NAN)
+}
+
 const SAMPLES: Names = Names {
     usable: "samples: unit vectors with a pdf",
     integral: "∫ pdf = the share of samples that are",
@@ -314,8 +319,9 @@ impl Kit {
             }
             let rounding = Self::rounding_of::<f32>(cosine.into());
             let at = |a: f64, b: f64| format!("{a:e} and {b:e}, wi {} wo {}", hex(&wi), hex(&wo));
-            let exact =
-                |f: &dyn Fn(W, W) -> f64, wi: [f32; 3], wo: [f32; 3]| f(wide(wi).into(), wide(wo).into());
+            let exact = |f: &dyn Fn(W, W) -> f64, wi: [f32; 3], wo: [f32; 3]| {
+                or_nan(|| f(wide(wi).into(), wide(wo).into()))
+            };
             let compare = |seen: &mut Seen, narrow: f64, f: &dyn Fn(W, W) -> f64| {
                 let wide = exact(f, wi, wo);
                 if wide < f64::from(f32::MIN_POSITIVE) && narrow < 2.0 * f64::from(f32::MIN_POSITIVE) {
@@ -329,8 +335,8 @@ impl Kit {
                 };
                 seen.see((off - slack).max(0.0), || at(narrow, wide));
             };
-            compare(&mut values, f64::from((single.eval)(wi.into(), wo.into())), &double.eval);
-            compare(&mut pdfs, f64::from((single.pdf)(wi.into(), wo.into())), &double.pdf);
+            compare(&mut values, or_nan(|| (single.eval)(wi.into(), wo.into()).into()), &double.eval);
+            compare(&mut pdfs, or_nan(|| (single.pdf)(wi.into(), wo.into()).into()), &double.pdf);
         }
         let allowed = self.tolerance::<f32>();
         report.push("f in f32 against f64", values, allowed);

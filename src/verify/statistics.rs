@@ -79,7 +79,7 @@ pub struct Pearson {
 }
 
 impl Counted {
-    /// What it adds to χ².
+    /// The part of χ² that is this cell's.
     #[must_use]
     pub fn contribution(&self) -> f64 {
         let difference = self.observed - self.expected;
@@ -93,8 +93,10 @@ const SMALLEST_EXPECTATION: f64 = 5.0;
 /// The probability below which what is left of the small cells rejects.
 const IMPOSSIBLE: f64 = 1e-9;
 
-/// Pearson's χ² of cells whose counts sum to what was expected in all. Cells of little expectation are put together; what is then still too little
-/// is judged by Poisson's distribution.
+/// Pearson's χ² of cells whose counts sum to what was expected in all.
+///
+/// Cells of little expectation are put together; the rest that is still too little is judged by
+/// Poisson's distribution.
 #[must_use]
 pub fn pearson(cells: &[Counted]) -> Pearson {
     let mut sorted: Vec<Counted> = cells.to_vec();

@@ -23,7 +23,7 @@ fn of_conductor<S: NormalSampling<Microsurface<Ggx, Linear<f64>>>>(kit: &Kit, sa
 #[test]
 fn conductors_pass() {
     of_conductor(&Kit::new().merciless(), VisibleNormals).assert();
-    // Where cosines are subnormal the density of reflection by all normals is documented to overflow.
+    // At subnormal cosines the density of reflection by all normals is documented to overflow.
     of_conductor(&Kit::new(), UniformMixture::new(AllNormals, 0.4).unwrap()).assert();
 }
 
@@ -122,7 +122,7 @@ fn cosine_pdf(wi: DVec3) -> f64 {
     wi.z.max(0.0) * FRAC_1_PI
 }
 
-/// What is wrong with a grey Lambertian surface.
+/// A fault of a grey Lambertian surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Fault {
     None,

@@ -6,7 +6,7 @@ use microsurface::{AxisAligned, Ggx, Microsurface, Ndf, SampleNdf, SampleVndf};
 
 use crate::assert_rejected;
 
-/// What is wrong with a GGX surface.
+/// A fault of a GGX surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Fault {
     None,

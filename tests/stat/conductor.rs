@@ -41,7 +41,7 @@ impl Case {
     }
 }
 
-/// What is wrong with the pdf or the values that a sampler is compared with.
+/// A fault of the pdf or the values that a sampler is compared with.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Wrong {
     None,

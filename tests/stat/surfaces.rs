@@ -188,10 +188,10 @@ macro_rules! with_map {
     }};
 }
 
-/// What is made of the surface of a distribution under a map.
+/// A recipe for the surface of a distribution under a map.
 struct Made<R: Recipe>(R, Distribution, MapSpec);
 
-/// What is made of a surface: the surface itself, or a BRDF on it.
+/// A use of a surface: the surface itself, a BRDF on it, or a report.
 pub(crate) trait Recipe {
     type Made;
     fn make<N: SampleNdf<Scalar: Scalar> + 'static>(self, surface: N) -> Self::Made;
@@ -282,7 +282,7 @@ impl Recipe for Normals {
 pub(crate) trait Scalar: Float + Spectrum<Scalar = Self> {}
 impl<T: Float + Spectrum<Scalar = T>> Scalar for T {}
 
-/// What a recipe makes of the surface of a distribution under a map.
+/// Makes of the surface of a distribution under a map what the recipe says.
 pub(crate) fn made<T: Scalar, R: Recipe>(recipe: R, distribution: Distribution, map: MapSpec) -> R::Made {
     distribution.row.visit::<T, _>(Made(recipe, distribution, map))
 }

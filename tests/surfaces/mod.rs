@@ -10,7 +10,7 @@ use microsurface::{
     AxisAligned, Beckmann, Error, Ggx, Gtr, Isotropic, Linear, Microsurface, Real, SampleNdf,
 };
 
-/// What is known of a distribution.
+/// The properties of a distribution.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Columns {
     /// As in the benchmarks, and in the tables of 50-digit values for those of one γ.
@@ -127,7 +127,7 @@ macro_rules! rows {
                 output.expect("one of all")
             }
 
-            /// The same of one that stands for all.
+            /// Shows the same for a row that stands for all.
             pub(crate) fn visit_some<T: Real, V: Visitor<T>>(self, visitor: V) -> V::Output {
                 let output = rows!(@visit visitor, self; $($row $normals $profile;)*);
                 output.expect("one that stands for all")
@@ -244,7 +244,7 @@ impl fmt::Debug for Distribution {
 pub(crate) trait Batched<T>: SampleNdf<Scalar = T> + Material<Local = Self> {}
 impl<T, N: SampleNdf<Scalar = T> + Material<Local = N>> Batched<T> for N {}
 
-/// What is done with the profiles of a row, of whichever type. They are made of an α and a γ.
+/// A use of the profiles of a row, of whichever type. They are made of an α and a γ.
 pub(crate) trait Visitor<T: Real> {
     type Output;
 

@@ -14,7 +14,7 @@ pub(crate) enum VisibleProfile {
 }
 
 impl VisibleProfile {
-    /// That of a distribution without a width of its own.
+    /// The profile of a distribution without a width of its own.
     pub(crate) fn of(distribution: Distribution) -> Self {
         if distribution.gamma == f64::INFINITY { Self::Beckmann } else { Self::Ggx }
     }
