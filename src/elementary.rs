@@ -24,6 +24,7 @@
 //! | [`erf_inv`], [`erfc_inv`] | 2 | 1 | a logarithm |
 
 pub(crate) mod bits;
+pub(crate) mod chebyshev;
 mod coefficients;
 mod erf;
 mod erf_inv;

@@ -88,6 +88,7 @@ pub mod real;
 pub mod roughness;
 #[cfg(feature = "serde")]
 pub mod stored;
+pub mod student_t;
 pub mod transform;
 mod vector;
 #[cfg(feature = "verify")]
@@ -103,3 +104,4 @@ pub use map::{AxisAligned, Isotropic, Linear, RoughnessMatrix};
 pub use microsurface::Microsurface;
 pub use ndf::{Ndf, SampleNdf, SampleVndf};
 pub use real::Real;
+pub use student_t::StudentT;

@@ -11,6 +11,7 @@
 //! |---|---|---|
 //! | [`Ggx`](crate::Ggx) | 1/(π (q + z²)²) | ½(z + √(z² + s²)) |
 //! | [`Beckmann`](crate::Beckmann) | exp(−q/z²)/(π z⁴) | z + ½ s e^{−ν²} ierfcx(ν), ν = z/s |
+//! | [`StudentT`](crate::StudentT) | (1 + q/((γ−1) z²))^{−γ}/(π z⁴) | see [`student_t`](crate::student_t) |
 //! | [`Gtr`](crate::Gtr) | c (z² + q)^{γ−2}/(q + α² z²)^γ | see [`gtr`](crate::gtr) |
 
 pub(crate) mod staged;

@@ -13,7 +13,7 @@ const FLOORS: [&[&str]; 17] = [
     &["ndf"],
     &["profile"],
     &["microsurface"],
-    &["ggx", "beckmann"],
+    &["ggx", "beckmann", "student_t"],
     &["gtr"],
     &["frame", "fresnel"],
     &["transform"],
@@ -25,7 +25,7 @@ const FLOORS: [&[&str]; 17] = [
 ];
 
 /// Names with a shorter path in `lib.rs`, and their modules.
-const SHORT: [(&str, &str); 13] = [
+const SHORT: [(&str, &str); 14] = [
     ("AxisAligned", "map"),
     ("Beckmann", "beckmann"),
     ("Error", "error"),
@@ -39,6 +39,7 @@ const SHORT: [(&str, &str); 13] = [
     ("RoughnessMatrix", "map"),
     ("SampleNdf", "ndf"),
     ("SampleVndf", "ndf"),
+    ("StudentT", "student_t"),
 ];
 
 fn floor(name: &str) -> Option<usize> {

@@ -32,6 +32,7 @@ mod rows;
 mod scalar;
 mod stored;
 mod strategies;
+mod student_t;
 mod surfaces;
 mod transform;
 mod worst;
