@@ -71,6 +71,7 @@ struct Readme;
 mod alpha;
 pub mod batch;
 pub mod beckmann;
+mod blend;
 pub mod bsdf;
 pub mod elementary;
 mod error;
@@ -97,6 +98,7 @@ pub mod verify;
 pub use glam;
 
 pub use beckmann::Beckmann;
+pub use blend::Blend;
 pub use error::Error;
 pub use ggx::Ggx;
 pub use gtr::Gtr;

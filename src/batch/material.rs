@@ -4,6 +4,7 @@ use crate::batch::blocks::{Sink, Source, check};
 use crate::batch::custom::Custom;
 use crate::batch::simd::{self, Vectorized};
 use crate::batch::stages::{Body, Builder, each};
+use crate::blend::Blend;
 use crate::bsdf::RoughConductor;
 use crate::filter::gaussian::FilteredGgx;
 use crate::map::Map;
@@ -52,6 +53,7 @@ macro_rules! by_value {
 by_value! {
     [P: Forms, M: Map] Microsurface<P, M>;
     [N: Ndf + Forms] Transformed<N>;
+    [A: Ndf + Copy, B: Copy] Blend<A, B>;
     [T: crate::Real, const N: usize] FilteredGgx<T, N>;
     [N: Ndf + Copy] Custom<N>;
 }

@@ -6,6 +6,9 @@
 //! | a Gaussian surface, exact under filtering and sums | [`Beckmann`](crate::Beckmann) |
 //! | the same, with faster visible normals in batches | [`BeckmannTo1e6`](crate::beckmann::BeckmannTo1e6) |
 //! | heavier or lighter tails | [`Gtr::isotropic`](crate::Gtr::isotropic), at integer γ [`Gtr::closed`](crate::Gtr::closed); see [`gtr`](crate::gtr) |
+//! | a tail fitted to measured slopes, between GGX's and Beckmann's or heavier | [`StudentT`](crate::StudentT), which stays one when stretched |
+//! | Phong's power of the cosine | [`student_t::Phong`](crate::student_t::Phong) |
+//! | two lobes on one surface, haze | [`Blend`](crate::Blend) |
 //! | the same roughness in every direction | `isotropic(alpha)` |
 //! | two roughnesses along the axes | `anisotropic(alpha_x, alpha_y)` |
 //! | roughness along any direction | `rotated(alpha_x, alpha_y, angle)`, or `from_roughness_matrix` |

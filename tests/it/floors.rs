@@ -14,7 +14,7 @@ const FLOORS: [&[&str]; 17] = [
     &["profile"],
     &["microsurface"],
     &["ggx", "beckmann", "student_t"],
-    &["gtr"],
+    &["gtr", "blend"],
     &["frame", "fresnel"],
     &["transform"],
     &["filter"],
@@ -25,9 +25,10 @@ const FLOORS: [&[&str]; 17] = [
 ];
 
 /// Names with a shorter path in `lib.rs`, and their modules.
-const SHORT: [(&str, &str); 14] = [
+const SHORT: [(&str, &str); 15] = [
     ("AxisAligned", "map"),
     ("Beckmann", "beckmann"),
+    ("Blend", "blend"),
     ("Error", "error"),
     ("Ggx", "ggx"),
     ("Gtr", "gtr"),

@@ -12,6 +12,7 @@
 mod accuracy;
 mod approximations;
 mod bad_input;
+mod blend;
 mod elementary;
 mod ends;
 mod filter;
