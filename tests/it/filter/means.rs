@@ -371,3 +371,29 @@ fn the_brdf_over_any_footprint_is_a_number() {
         assert!(material.eval_over(wi, wo, nan.clamped(1.0)) >= 0.0);
     }
 }
+
+/// The peak of the surface of α' is the mean about the peak, and the values recovered from Eq. 20 of
+/// Kaplanyan et al. 2016.
+#[test]
+fn alpha_of_equal_peak_keeps_the_peak() {
+    for (alpha, side, expected) in [(0.1_f64, 0.1, 0.1153), (0.1, 0.4, 0.2476), (0.01, 0.4, 0.2259)] {
+        assert!((rectangle::alpha_of_equal_peak(alpha, side) - expected).abs() < 5e-5);
+    }
+    for alpha in [1e-6, 0.02, 0.7, 30.0] {
+        assert_eq!(rectangle::alpha_of_equal_peak(alpha, 0.0), alpha);
+        let mut last = alpha;
+        for i in -60..60 {
+            let side = alpha * 2.0_f64.powi(i).sqrt();
+            let widened = rectangle::alpha_of_equal_peak(alpha, -side);
+            let half = DVec2::splat(0.5 * side);
+            let mean = rectangle::mean_p22(&Ggx::isotropic(alpha).unwrap(), DVec2::ZERO, half);
+            let peak = Ggx::isotropic(widened).unwrap().p22(DVec2::ZERO);
+            // The mean's own accuracy.
+            assert!((peak / mean - 1.0).abs() < 1.3e-11, "{alpha} {side}: {peak} {mean}");
+            assert!(widened >= last);
+            last = widened;
+        }
+    }
+    assert!(rectangle::alpha_of_equal_peak(f32::NAN, 0.1).is_nan());
+    assert!(rectangle::alpha_of_equal_peak(0.1, f32::NAN).is_nan());
+}
