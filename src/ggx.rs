@@ -38,11 +38,35 @@ use crate::vector::below_one;
 /// # Ok::<(), microsurface::Error>(())
 /// ```
 ///
+/// # SGGX
+/// GGX normals are those of the upper half of an ellipsoid. The whole one is SGGX, of volumes: D
+/// at ±wm, the projected area σ(w) + σ(−w) = √(wᵀSw) with S = diag(αx², αy², 1), and visible
+/// normals from either half by its share.
+/// ```
+/// use microsurface::{Ggx, Ndf, SampleVndf, glam::{Vec2, Vec3}};
+/// let half = Ggx::anisotropic(0.3_f32, 0.7)?;
+/// let w = Vec3::new(0.48, 0.6, 0.64);
+/// let [above, below] = [half.sigma(w), half.sigma(-w)];
+/// let scaled = Vec3::new(0.3, 0.7, 1.0) * w;
+/// assert!((above + below - scaled.length()).abs() < 1e-6);
+/// let u = Vec2::new(0.2, 0.9);
+/// let share = above / (above + below);
+/// let wm = if u.x < share {
+///     half.sample_vndf(w, Vec2::new(u.x / share, u.y))
+/// } else {
+///     -half.sample_vndf(-w, Vec2::new((u.x - share) / (1.0 - share), u.y))
+/// };
+/// assert!(w.dot(wm) > 0.0);
+/// # Ok::<(), microsurface::Error>(())
+/// ```
+/// Any other axis than z is a rotation of w and wm: Heitz, Dupuy, Crassin and Dachsbacher 2015,
+/// "The SGGX microflake distribution".
+///
 /// # References
 /// Trowbridge and Reitz 1975; Walter, Marschner, Li and Torrance 2007, Eq. 33; Heitz 2014; visible
 /// normals by spherical caps: Dupuy and Benyoub 2023, doi:10.1111/cgf.14867.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-#[doc(alias = "TrowbridgeReitz")]
+#[doc(alias("TrowbridgeReitz", "SGGX"))]
 pub struct Ggx;
 
 shape_invariant!(Ggx);
