@@ -34,6 +34,13 @@ pub(crate) fn below_one<T: Real>(u: T) -> T {
     if u > last { last } else { u }
 }
 
+/// u where it is told from 0 and 1: 0 is taken as ε/4, the middle of the first cell of random
+/// numbers.
+#[inline(always)]
+pub(crate) fn inside<T: Real>(u: T) -> T {
+    u.max(T::lit(0.25) * T::EPSILON).min(T::ONE - T::HALF * T::EPSILON)
+}
+
 /// σ of the direction w, or w.z where rounding left it below: the facets seen are no fewer than a
 /// plane's.
 #[inline(always)]

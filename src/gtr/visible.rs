@@ -62,6 +62,7 @@ use crate::elementary::polynomial::polynomial;
 use crate::elementary::{exp_m1, ln};
 use crate::gtr::integer::number;
 use crate::real::{Real, select};
+use crate::vector::inside;
 use coefficients::{BETA, GUESS, HALF_TOTAL, KAPPA, MAX};
 
 /// sin e is taken no smaller: the products of a step, of the order of sin⁴e, and 2⁻⁵⁴ some times,
@@ -293,13 +294,6 @@ impl<W: Real> View<W> {
         let u = u.widen();
         self.place(self.step(self.step(v, u), u))
     }
-}
-
-/// u where it is told from 0 and 1: 0 is taken as ε/4, the middle of the first cell of random
-/// numbers.
-#[inline(always)]
-fn inside<T: Real>(u: T) -> T {
-    u.max(T::lit(0.25) * T::EPSILON).min(T::ONE - T::HALF * T::EPSILON)
 }
 
 /// A normal, of any length, visible from `v`, with density max(0, v·m)·m.z^(2k) on m.z ≥ 0.

@@ -183,8 +183,8 @@ impl Rule {
         rule
     }
 
-    /// The integrals of U, over √W, and B at μ: ∫ e^{−(p−1)v} dv/Y and ∫ e^{−(p−1)v} (1 − μ/Y) dv, Y =
-    /// √W y = √(μ² + eᵛ − 1).
+    /// The integrals of U, over √W, and B at μ: ∫ e^{−(p−1)v} dv/Y and ∫ e^{−(p−1)v} (1 − μ/Y) dv
+    /// with Y = √W y = √(μ² + eᵛ − 1).
     fn integrals(&self, cosine: f64) -> [f64; 2] {
         let (mut mass, mut area) = (0.0, 0.0);
         for [weight, rise] in &self.points[..self.count] {

@@ -62,7 +62,8 @@ fn log_of_square(marginal: &Marginal<f64>, g: f64) -> f64 {
         let slope = 0.5 * marginal.constant / (y * mass);
         let step = (ln(mass) - exponent - target) / slope;
         let next = if log + step > 0.0 { log + step } else { 0.25 * log };
-        let done = (next - log).abs() <= 1e-15 * log;
+        // The rounding of the logarithm of U, over its slope.
+        let done = (next - log).abs() <= 4.0 * f64::EPSILON * log;
         log = next;
         if done {
             break;

@@ -20,8 +20,9 @@ use super::quantile::{LONGEST, Quantile};
 use crate::Real;
 use crate::elementary::{exp_m1, ln, ln_1p};
 use crate::real::select;
+use crate::vector::inside;
 
-/// What visible normals are drawn by.
+/// The quantiles that visible normals are drawn by.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Visible<T> {
     along: Quantile<T>,
@@ -106,11 +107,4 @@ fn seen_from_below<T: Real>(marginal: &Marginal<T>, nu: T::Wide, u: T::Wide) -> 
 fn rise<W: Real>(nu: W, v: W) -> W {
     let nu2 = nu * nu;
     (nu2 + (W::ONE + nu2) * exp_m1(v.min(W::lit(LONGEST)))).sqrt()
-}
-
-/// u where it is told from 0 and 1: 0 is taken as ε/4, the middle of the first cell of random
-/// numbers.
-#[inline(always)]
-fn inside<T: Real>(u: T) -> T {
-    u.max(T::lit(0.25) * T::EPSILON).min(T::ONE - T::HALF * T::EPSILON)
 }

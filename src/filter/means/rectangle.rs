@@ -90,7 +90,7 @@ pub fn alpha_of_equal_peak<T: Real>(alpha: T, side: T) -> T {
     let [alpha, half] = [alpha.to_f64(), 0.5 * side.to_f64().abs()];
     let sum = alpha * alpha + half * half;
     let k = half / Real::sqrt(sum);
-    // k/atan k is 1 to rounding where k² is.
-    let ratio = if k < 1e-9 { 1.0 } else { k / atan2(k, 1.0) };
+    // k/atan k = 1 + k²/3 + …
+    let ratio = if k * k < f64::EPSILON { 1.0 } else { k / atan2(k, 1.0) };
     T::lit(Real::sqrt(sum * ratio))
 }
